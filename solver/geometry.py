@@ -1,0 +1,72 @@
+"""From a ground surface to particles."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from solver.particles import Particles, allocate_particles
+
+
+class Surface(NamedTuple):
+    """The ground surface as a polyline from the left wall to the right wall; the slide is expected towards +x."""
+
+    x: np.ndarray  # (k,) m, not decreasing; equal neighbours are a vertical face
+    y: np.ndarray  # (k,) m, above the base
+
+    @property
+    def width(self) -> float:
+        """Distance between the side walls in m."""
+        return float(self.x[-1])
+
+    @property
+    def top(self) -> float:
+        """Highest elevation in m."""
+        return float(self.y.max())
+
+    @property
+    def toe(self) -> tuple[float, float]:
+        """Place ``(x, y)`` in m where the surface reaches the level of its right end for the first time."""
+        level = self.y[-1]
+        first = int(np.argmax(self.y <= level + 1e-9))
+        return float(self.x[first]), float(level)
+
+    def height_at(self, x: np.ndarray) -> np.ndarray:
+        """Return the elevation in m above each ``x``; on a vertical face that of the ground to its right."""
+        segment = np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, self.x.size - 2)
+        run = self.x[segment + 1] - self.x[segment]
+        share = np.divide(x - self.x[segment], run, out=np.zeros_like(run), where=run > 0)
+        height: np.ndarray = self.y[segment] + share * (self.y[segment + 1] - self.y[segment])
+        return height
+
+
+def slope_surface(height: float, angle: float, crest: float, plain: float, foundation: float) -> Surface:
+    """Return the surface of a straight slope that descends to the right.
+
+    Parameters
+    ----------
+    height, crest, plain, foundation : float
+        Height of the slope, lengths of the flats above and below it, and depth of the ground under the toe, in m.
+    angle : float
+        Inclination in rad.
+    """
+    toe = crest + height / np.tan(angle)
+    top = foundation + height
+    return Surface(np.array([0.0, crest, toe, toe + plain]), np.array([top, top, foundation, foundation]))
+
+
+def fill_ground(surface: Surface, cell_size: float, particles_per_cell: int, density: float) -> Particles:
+    """Return particles on a regular lattice whose centres lie strictly below the surface, sorted by cell.
+
+    A particle stands for the lattice square around it, so an inclined surface is a staircase of half a spacing.
+    """
+    per_side = round(np.sqrt(particles_per_cell))
+    spacing = cell_size / per_side
+    columns = round(surface.width / spacing)
+    rows = int(np.ceil(surface.top / spacing))
+    x = (np.arange(columns) + 0.5) * spacing
+    y = (np.arange(rows) + 0.5) * spacing
+    x, y = (lattice.ravel() for lattice in np.meshgrid(x, y))
+    below = y < surface.height_at(x) - 1e-9
+    x, y = x[below], y[below]
+    order = np.lexsort((x // cell_size, y // cell_size))
+    return allocate_particles(x[order], y[order], spacing**2, density)

@@ -1,0 +1,68 @@
+"""The background grid: square cells, nodes numbered row by row, walls on node lines."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+PADDING = 2  # layers of nodes beyond a wall: GIMP weights reach one, a particle pressed into the wall a second
+SMALLEST_MASS = 1e-12  # kg/m: below it a node carries nothing and 0/0 is avoided
+
+
+class Grid(NamedTuple):
+    """Nodes of a rectangular grid whose lower left wall corner is the origin of coordinates."""
+
+    cell_size: float  # m
+    half_length: float  # l_p / h, of the basis functions
+    origin: float  # m, both coordinates of node 0
+    columns: int
+    rows: int
+    width: float  # m, between the side walls
+    height: float  # m, of the space particles may occupy
+    free_x: np.ndarray  # (nodes,) 1 where the node may move horizontally, 0 at the sides and the base
+    free_y: np.ndarray  # (nodes,) 1 where the node may move vertically, 0 at the base
+    mass: np.ndarray  # (nodes,) kg/m
+    momentum: np.ndarray  # (nodes, 2) kg/s, of the particles as they are
+    force: np.ndarray  # (nodes, 2) N/m, internal
+    acceleration: np.ndarray  # (nodes, 2) m/s2
+    velocity: np.ndarray  # (nodes, 2) m/s, at the end of the step
+    remapped: np.ndarray  # (nodes, 2) momentum (kg/s), then velocity (m/s), of the updated particles
+
+
+def allocate_grid(width: float, height: float, cell_size: float, half_length: float) -> Grid:
+    """Return a grid for material between ``0 <= x <= width`` and ``0 <= y <= height``.
+
+    Parameters
+    ----------
+    width, height : float
+        Size of the space in m; rounded up to whole cells.
+    cell_size : float
+        Node spacing in m.
+    half_length : float
+        Half length of a particle's domain over the cell size (see ``basis``).
+    """
+    cells_x = int(np.ceil(width / cell_size - 1e-9))
+    cells_y = int(np.ceil(height / cell_size - 1e-9))
+    columns = cells_x + 1 + 2 * PADDING
+    rows = cells_y + 1 + 2 * PADDING
+    i = np.arange(columns) - PADDING
+    j = np.arange(rows) - PADDING
+    above_base = np.broadcast_to((j > 0)[:, None], (rows, columns))
+    between_sides = np.broadcast_to((i > 0) & (i < cells_x), (rows, columns))
+    nodes = rows * columns
+    return Grid(
+        cell_size=float(cell_size),
+        half_length=float(half_length),
+        origin=-PADDING * float(cell_size),
+        columns=columns,
+        rows=rows,
+        width=cells_x * float(cell_size),
+        height=cells_y * float(cell_size),
+        free_x=(above_base & between_sides).astype(float).ravel(),
+        free_y=above_base.astype(float).ravel(),
+        mass=np.zeros(nodes),
+        momentum=np.zeros((nodes, 2)),
+        force=np.zeros((nodes, 2)),
+        acceleration=np.zeros((nodes, 2)),
+        velocity=np.zeros((nodes, 2)),
+        remapped=np.zeros((nodes, 2)),
+    )

@@ -1,0 +1,198 @@
+"""Release of strength and the march to rest."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from solver import observables
+from solver.grid import Grid
+from solver.model import STANDARD_GRAVITY, Model
+from solver.particles import Particles, copy_particles
+from solver.step import GRAVITY_WORK, INTERNAL_WORK, Workspace, advance, allocate_workspace
+from solver.timestep import even_steps, stable_step
+
+FAILED = 1.0  # m: a slope that moves farther has failed (the paper, section 3.2); arms the end criterion
+REST_ENERGY = 1e-3  # of the largest kinetic energy
+REST_SPEED = 0.05  # m/s, of the farthest particle: it would still travel v^2 / 2a, a few millimetres
+REST_TIME = 0.2  # s both must hold
+MOST_STEPS_UNCHECKED = 64
+
+
+class Outcome(Enum):
+    """How a march ended."""
+
+    AT_REST = "at rest"
+    END_TIME = "end time"
+    DIVERGED = "diverged"
+    LEFT_DOMAIN = "left domain"
+
+
+@dataclass
+class History:
+    """Observables of one march at the output times; after rest the last values hold, after a failure NaN."""
+
+    time: np.ndarray  # (t,) s since release
+    runout: np.ndarray  # (t,) m
+    max_displacement: np.ndarray  # (t,) m
+    kinetic_energy: np.ndarray  # (t,) J/m, of the motion resolved by the grid
+    outcome: Outcome
+    reason: str
+    settle_time: float  # s, NaN if it did not come to rest
+    energy_error: float  # see March.energy_error
+    steps: int
+    particles: Particles  # at the end
+
+    @property
+    def has_failed(self) -> bool:
+        """Whether the march broke off."""
+        return self.outcome in (Outcome.DIVERGED, Outcome.LEFT_DOMAIN)
+
+
+class March:
+    """One slope on its way from the in-situ state to rest.
+
+    Parameters
+    ----------
+    model : Model
+    start : Particles
+        The in-situ state with peak strengths assigned; not modified.
+    """
+
+    def __init__(self, model: Model, start: Particles) -> None:
+        self.model = model
+        self.start = start
+        self.particles = copy_particles(start)
+        self.grid: Grid = model.allocate_grid()
+        self.work: Workspace = allocate_workspace(start.x.size)
+        self.time = 0.0
+        self.steps = 0
+        self.reason = ""
+
+    def advance_to(self, time: float) -> Outcome | None:
+        """March to ``time`` (s); return why it could not be reached, or None."""
+        ramp_end = self.model.ramp_time
+        goals = [ramp_end, time] if self.time < ramp_end < time else [time]
+        for goal in goals:
+            while self.time < goal:
+                failure = self._advance_towards(goal)
+                if failure:
+                    return failure
+        return None
+
+    def _advance_towards(self, goal: float) -> Outcome | None:
+        speed = observables.fastest(self.particles)
+        if not speed < self.model.wave_speed:
+            self.reason = f"A particle is faster than the P-wave ({speed:.3g} m/s) at {self.time:.2f} s."
+            return Outcome.DIVERGED
+        dt_most = stable_step(self.model.courant, self.model.cell_size, self.model.wave_speed, speed)
+        left = even_steps(goal - self.time, dt_most)
+        dt = (goal - self.time) / left
+        steps = min(left, MOST_STEPS_UNCHECKED)
+        gravity, rate = self._gravity()
+        taken = advance(
+            self.particles, self.grid, self.work, self.model.soil, self.model.scheme, gravity, rate, dt, steps
+        )
+        self.steps += taken
+        self.time = goal if steps == left else self.time + taken * dt
+        if taken < steps:
+            return self._left_or_diverged()
+        return None
+
+    def _left_or_diverged(self) -> Outcome:
+        if np.isfinite(self.particles.x).all() and np.isfinite(self.particles.y).all():
+            self.reason = f"A particle left the grid at {self.time:.2f} s; widen the plain or refine the time step."
+            return Outcome.LEFT_DOMAIN
+        self.reason = f"A position is not finite at {self.time:.2f} s."
+        return Outcome.DIVERGED
+
+    def _gravity(self) -> tuple[float, float]:
+        """Return gravity now (m/s2) and its rate (m/s3)."""
+        if self.time >= self.model.ramp_time:
+            return STANDARD_GRAVITY, 0.0
+        rate = STANDARD_GRAVITY / self.model.ramp_time
+        return rate * self.time, rate
+
+    def energy_error(self) -> float:
+        """Return (kinetic energy + work of the stresses - work of gravity) over the work of gravity.
+
+        The work of the stresses is what they store plus what plastic flow dissipates, so this is what the transfers
+        between particles and grid create (> 0) or destroy (< 0).
+        """
+        internal = self.work.ledger[INTERNAL_WORK]
+        released = self.work.ledger[GRAVITY_WORK]
+        imbalance = observables.kinetic_energy(self.particles) + internal - released
+        return float(imbalance / released) if released != 0.0 else 0.0
+
+
+class RestDetector:
+    """Decide that a slide is over: it has moved, and its energy and its advance have stayed small for a while."""
+
+    def __init__(self) -> None:
+        self._largest_energy = 0.0
+        self._last = (0.0, 0.0)
+        self._quiet_since = np.nan
+
+    def is_over(self, time: float, farthest: float, energy: float) -> bool:
+        """Return whether the slide has come to rest at ``time`` (s), given largest displacement (m) and energy."""
+        self._largest_energy = max(self._largest_energy, energy)
+        last_time, last_farthest = self._last
+        self._last = (time, farthest)
+        has_stopped = abs(farthest - last_farthest) < REST_SPEED * (time - last_time)
+        if not (has_stopped and farthest > FAILED and energy < REST_ENERGY * self._largest_energy):
+            self._quiet_since = np.nan
+        elif np.isnan(self._quiet_since):
+            self._quiet_since = time
+        return bool(time - self._quiet_since >= REST_TIME - 1e-9)
+
+
+def run(
+    model: Model,
+    start: Particles,
+    times: np.ndarray,
+    watch: Callable[[March], None] = lambda march: None,
+) -> History:
+    """Release the strength of the in-situ state at time 0 and follow the slide to rest or to the last time.
+
+    Parameters
+    ----------
+    model : Model
+    start : Particles
+        The in-situ state with peak strengths assigned; not modified.
+    times : ndarray (t,)
+        Output times in s, increasing from 0.
+    watch : callable
+        Called with the march at every output time; what it raises ends the march.
+    """
+    march = March(model, start)
+    series = {name: np.full(times.size, np.nan) for name in ("runout", "max_displacement", "kinetic_energy")}
+    rest = RestDetector()
+    outcome = Outcome.END_TIME
+    for k, time in enumerate(times):
+        failure = march.advance_to(float(time))
+        if failure:
+            outcome = failure
+            break
+        watch(march)
+        now = march.particles
+        farthest = float(observables.displacement(now, start).max())
+        energy = observables.resolved_kinetic_energy(march.grid)
+        series["runout"][k] = observables.runout(now, start, model.surface)
+        series["max_displacement"][k] = farthest
+        series["kinetic_energy"][k] = energy
+        if rest.is_over(march.time, farthest, energy):
+            outcome = Outcome.AT_REST
+            for values in series.values():
+                values[k + 1 :] = values[k]
+            break
+    return History(
+        time=times,
+        outcome=outcome,
+        reason=march.reason,
+        settle_time=march.time if outcome is Outcome.AT_REST else np.nan,
+        energy_error=march.energy_error(),
+        steps=march.steps,
+        particles=march.particles,
+        **series,
+    )

@@ -1,0 +1,76 @@
+"""The material points as a structure of arrays."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from solver._jit import law
+
+
+class Particles(NamedTuple):
+    """State of ``n`` particles, one contiguous array a component; per metre run out of plane."""
+
+    x: np.ndarray  # (n,) m, from the left wall
+    y: np.ndarray  # (n,) m, from the base
+    velocity_x: np.ndarray  # (n,) m/s
+    velocity_y: np.ndarray  # (n,) m/s
+    mass: np.ndarray  # (n,) kg/m
+    volume: np.ndarray  # (n,) m2
+    stress_xx: np.ndarray  # (n,) Pa, Cauchy, tension positive
+    stress_yy: np.ndarray  # (n,) Pa
+    stress_zz: np.ndarray  # (n,) Pa
+    stress_xy: np.ndarray  # (n,) Pa
+    plastic_strain: np.ndarray  # (n,) accumulated equivalent deviatoric plastic strain
+    cohesion: np.ndarray  # (n,) Pa, peak
+    friction_angle: np.ndarray  # (n,) rad, peak
+
+
+UNYIELDING = 1e15  # Pa: a cohesion that no stress reaches, so that the law is elastic
+
+
+def allocate_particles(x: np.ndarray, y: np.ndarray, volume: float, density: float) -> Particles:
+    """Return elastic particles at rest and free of stress.
+
+    Parameters
+    ----------
+    x, y : ndarray (n,)
+        Positions in m.
+    volume : float
+        Area of each particle in m2.
+    density : float
+        kg/m3.
+    """
+    n = x.size
+    zeros = {name: np.zeros(n) for name in Particles._fields}
+    return Particles(**zeros)._replace(
+        x=np.array(x, dtype=float),
+        y=np.array(y, dtype=float),
+        mass=np.full(n, volume * density),
+        volume=np.full(n, volume),
+        cohesion=np.full(n, UNYIELDING),
+    )
+
+
+def copy_particles(particles: Particles) -> Particles:
+    """Return an independent copy."""
+    return Particles(*(array.copy() for array in particles))
+
+
+@law
+def take_block(particles, start, stop):
+    """Return the particles from ``start`` to ``stop`` as views."""
+    return Particles(
+        particles.x[start:stop],
+        particles.y[start:stop],
+        particles.velocity_x[start:stop],
+        particles.velocity_y[start:stop],
+        particles.mass[start:stop],
+        particles.volume[start:stop],
+        particles.stress_xx[start:stop],
+        particles.stress_yy[start:stop],
+        particles.stress_zz[start:stop],
+        particles.stress_xy[start:stop],
+        particles.plastic_strain[start:stop],
+        particles.cohesion[start:stop],
+        particles.friction_angle[start:stop],
+    )

@@ -1,0 +1,266 @@
+"""One explicit GIMP time step, and many of them.
+
+The modified update-stress-last step (MUSL; Sulsky, Zhou and Schreyer 1995, Nairn 2003), with the weights of the places
+``x_p`` at the start of the step until the particles move, last of all:
+
+    1  m_i = S_ip m_p,  (mv)_i = S_ip m_p v_p,  f_i = -V_p sigma_p . grad S_ip       particle_to_grid
+    2  a_i = f_i / m_i + g,  v_i = (mv)_i / m_i + a_i dt,  walls                     solve_momentum
+    3  v_p <- v_p + S_ip a_i dt                                                      update_velocity
+    4  v_i <- S_ip m_p v_p / m_i,  walls                                             remap_velocity
+    5  L_p = v_i (x) grad S_ip,  sigma_p <- law(sigma_p, L_p dt),  V_p               update_material
+    6  x_p <- x_p + S_ip v_i(2) dt                                                   move
+
+Update-stress-last (USL) leaves out 4; update-stress-first (USF) moves before 4. A step is two passes over the
+particles, one for 3 and 4, one for 5, 6 and 1 of the next step, in blocks small enough for the first-level cache.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from solver._jit import kernel, law
+from solver.basis import Stencil, allocate_stencil, evaluate_stencil
+from solver.boundary import constrain
+from solver.grid import SMALLEST_MASS
+from solver.kinematics import rotate_stress, volume_ratio
+from solver.mohr_coulomb import update_stress
+from solver.particles import take_block
+from solver.transfer import gradient, interpolate, particle_to_grid, spread_mass, spread_momentum
+
+BLOCK = 128
+INTERNAL_WORK, GRAVITY_WORK = 0, 1
+
+STRESS_UPDATES = {"musl": 0, "usl": 1, "usf": 2}
+USL, USF = STRESS_UPDATES["usl"], STRESS_UPDATES["usf"]
+
+
+class Workspace(NamedTuple):
+    """Scratch arrays of a march, and the energy ledger it keeps."""
+
+    stencil: Stencil
+    increment: np.ndarray  # (4, BLOCK) displacement gradient increments L dt: xx, xy, yx, yy
+    moved_x: np.ndarray  # (n,) m, places at the end of the step
+    moved_y: np.ndarray  # (n,) m
+    ledger: np.ndarray  # (2,) J/m: work of the stresses, work of gravity
+
+
+def allocate_workspace(n_particles: int) -> Workspace:
+    """Return scratch space for ``n_particles`` with an empty ledger."""
+    return Workspace(
+        allocate_stencil(BLOCK), np.empty((4, BLOCK)), np.empty(n_particles), np.empty(n_particles), np.zeros(2)
+    )
+
+
+class Scheme(NamedTuple):
+    """How a step is taken."""
+
+    stress_update: int  # of STRESS_UPDATES
+    flip_fraction: float  # 1 FLIP, 0 PIC
+    damping: float  # local damping: this share of the unbalanced force opposes the motion (in-situ stage only)
+
+
+@law
+def clear_state(grid):
+    """Empty the nodes before the particles spread their state to them."""
+    grid.mass[:] = 0.0
+    grid.momentum[:] = 0.0
+    grid.force[:] = 0.0
+
+
+@law
+def solve_momentum(grid, gravity, damping, dt):
+    """Set nodal acceleration and the velocity at the end of the step from mass, momentum and force."""
+    for i in range(grid.mass.size):
+        has_mass = grid.mass[i] > SMALLEST_MASS
+        inverse = 1.0 / grid.mass[i] if has_mass else 0.0
+        v_x = grid.momentum[i, 0] * inverse
+        v_y = grid.momentum[i, 1] * inverse
+        a_x = grid.force[i, 0] * inverse
+        a_y = grid.force[i, 1] * inverse - (gravity if has_mass else 0.0)
+        a_x -= damping * abs(a_x) * np.sign(v_x)
+        a_y -= damping * abs(a_y) * np.sign(v_y)
+        grid.acceleration[i, 0] = a_x
+        grid.acceleration[i, 1] = a_y
+        grid.velocity[i, 0] = v_x + a_x * dt
+        grid.velocity[i, 1] = v_y + a_y * dt
+        grid.remapped[i, 0] = 0.0
+        grid.remapped[i, 1] = 0.0
+    constrain(grid.acceleration, grid)
+    constrain(grid.velocity, grid)
+
+
+@law
+def update_velocity(particles, stencil, grid, moved_x, moved_y, flip_fraction, dt):
+    """Accelerate the particles and note where they will be at the end of the step."""
+    for p in range(particles.x.size):
+        a_x, a_y = interpolate(grid.acceleration, stencil, p, grid.columns)
+        v_x, v_y = interpolate(grid.velocity, stencil, p, grid.columns)
+        moved_x[p] = particles.x[p] + v_x * dt
+        moved_y[p] = particles.y[p] + v_y * dt
+        flip_x = particles.velocity_x[p] + a_x * dt
+        flip_y = particles.velocity_y[p] + a_y * dt
+        particles.velocity_x[p] = flip_fraction * flip_x + (1.0 - flip_fraction) * v_x
+        particles.velocity_y[p] = flip_fraction * flip_y + (1.0 - flip_fraction) * v_y
+
+
+@law
+def remap_momentum(particles, stencil, grid):
+    """Add the momentum of the accelerated particles to the nodes again."""
+    for p in range(particles.x.size):
+        m = particles.mass[p]
+        momentum_x = m * particles.velocity_x[p]
+        momentum_y = m * particles.velocity_y[p]
+        spread_momentum(grid.remapped, momentum_x, momentum_y, stencil, p, grid.columns)
+
+
+@law
+def remap_velocity(grid):
+    """Turn remapped momentum into velocity that respects the walls."""
+    for i in range(grid.mass.size):
+        inverse = 1.0 / grid.mass[i] if grid.mass[i] > SMALLEST_MASS else 0.0
+        grid.remapped[i, 0] *= inverse
+        grid.remapped[i, 1] *= inverse
+    constrain(grid.remapped, grid)
+
+
+@law
+def gather_increments(increment, nodal_velocity, stencil, count, columns, dt):
+    """Fill ``increment`` with the displacement gradients ``L dt`` of the block."""
+    for p in range(count):
+        xx, xy, yx, yy = gradient(nodal_velocity, stencil, p, columns)
+        increment[0, p] = xx * dt
+        increment[1, p] = xy * dt
+        increment[2, p] = yx * dt
+        increment[3, p] = yy * dt
+
+
+@law
+def update_material(particles, increment, soil):
+    """Update stress, plastic strain and volume of the block; return the work of the stresses in J/m."""
+    work = 0.0
+    for p in range(particles.x.size):
+        l_xx = increment[0, p]
+        l_xy = increment[1, p]
+        l_yx = increment[2, p]
+        l_yy = increment[3, p]
+        shear = 0.5 * (l_xy + l_yx)
+        xx, yy, xy = rotate_stress(
+            particles.stress_xx[p], particles.stress_yy[p], particles.stress_xy[p], 0.5 * (l_xy - l_yx)
+        )
+        new_xx, new_yy, new_zz, new_xy, plastic_strain = update_stress(
+            xx,
+            yy,
+            particles.stress_zz[p],
+            xy,
+            l_xx,
+            l_yy,
+            shear,
+            particles.plastic_strain[p],
+            particles.cohesion[p],
+            particles.friction_angle[p],
+            soil,
+        )
+        volume = particles.volume[p] * volume_ratio(l_xx, l_xy, l_yx, l_yy)
+        mean_volume = 0.5 * (volume + particles.volume[p])
+        work += mean_volume * (0.5 * ((xx + new_xx) * l_xx + (yy + new_yy) * l_yy) + (xy + new_xy) * shear)
+        particles.stress_xx[p] = new_xx
+        particles.stress_yy[p] = new_yy
+        particles.stress_zz[p] = new_zz
+        particles.stress_xy[p] = new_xy
+        particles.plastic_strain[p] = plastic_strain
+        particles.volume[p] = volume
+    return work
+
+
+@law
+def are_inside(x, y, grid):
+    """Return whether every place is finite and within the walls, give or take one cell."""
+    outside = 0
+    for p in range(x.size):
+        in_x = x[p] > -grid.cell_size and x[p] < grid.width + grid.cell_size
+        in_y = y[p] > -grid.cell_size and y[p] < grid.height + grid.cell_size
+        outside += 0 if in_x and in_y else 1
+    return outside == 0
+
+
+@law
+def move(particles, moved_x, moved_y, grid, gravity, ledger):
+    """Put the particles at their new places and enter the work of gravity; return whether they are inside."""
+    fall = 0.0
+    for p in range(particles.x.size):
+        fall += particles.mass[p] * (particles.y[p] - moved_y[p])
+        particles.x[p] = moved_x[p]
+        particles.y[p] = moved_y[p]
+    ledger[GRAVITY_WORK] += gravity * fall
+    return are_inside(particles.x, particles.y, grid)
+
+
+@kernel
+def spread_all(particles, grid, work):
+    """Operation 1 for all particles."""
+    clear_state(grid)
+    for start in range(0, particles.x.size, BLOCK):
+        block = take_block(particles, start, start + BLOCK)
+        evaluate_stencil(work.stencil, block.x, block.y, grid)
+        particle_to_grid(block, work.stencil, grid)
+
+
+@kernel
+def accelerate(particles, grid, work, scheme, gravity, dt):
+    """Operations 3 and 4, the first pass over the particles; return whether all are inside."""
+    move_first = scheme.stress_update == USF
+    if move_first:
+        grid.mass[:] = 0.0
+    for start in range(0, particles.x.size, BLOCK):
+        stop = start + BLOCK
+        block = take_block(particles, start, stop)
+        moved_x = work.moved_x[start:stop]
+        moved_y = work.moved_y[start:stop]
+        evaluate_stencil(work.stencil, block.x, block.y, grid)
+        update_velocity(block, work.stencil, grid, moved_x, moved_y, scheme.flip_fraction, dt)
+        if move_first:
+            if not move(block, moved_x, moved_y, grid, gravity, work.ledger):
+                return False
+            evaluate_stencil(work.stencil, block.x, block.y, grid)
+            spread_mass(block, work.stencil, grid)
+        if scheme.stress_update != USL:
+            remap_momentum(block, work.stencil, grid)
+    remap_velocity(grid)
+    return True
+
+
+@kernel
+def deform(particles, grid, work, soil, scheme, gravity, dt):
+    """Operations 5 and 6, and 1 of the next step: the second pass; return whether all are inside."""
+    nodal_velocity = grid.velocity if scheme.stress_update == USL else grid.remapped
+    clear_state(grid)
+    for start in range(0, particles.x.size, BLOCK):
+        stop = start + BLOCK
+        block = take_block(particles, start, stop)
+        evaluate_stencil(work.stencil, block.x, block.y, grid)
+        gather_increments(work.increment, nodal_velocity, work.stencil, block.x.size, grid.columns, dt)
+        work.ledger[INTERNAL_WORK] += update_material(block, work.increment, soil)
+        if scheme.stress_update != USF:
+            if not move(block, work.moved_x[start:stop], work.moved_y[start:stop], grid, gravity, work.ledger):
+                return False
+            evaluate_stencil(work.stencil, block.x, block.y, grid)
+        particle_to_grid(block, work.stencil, grid)
+    return True
+
+
+@kernel
+def advance(particles, grid, work, soil, scheme, gravity, gravity_rate, dt, steps):
+    """Take ``steps`` time steps of ``dt`` seconds, in place; return how many were taken.
+
+    Fewer than ``steps`` means that a particle left the grid in the next one. Gravity (m/s2, downward) grows by
+    ``gravity_rate`` (m/s3).
+    """
+    spread_all(particles, grid, work)
+    for step in range(steps):
+        g = gravity + gravity_rate * (step + 0.5) * dt
+        solve_momentum(grid, g, scheme.damping, dt)
+        if not accelerate(particles, grid, work, scheme, g, dt):
+            return step
+        if not deform(particles, grid, work, soil, scheme, g, dt):
+            return step
+    return steps

@@ -1,0 +1,83 @@
+"""Between particles and grid. Each function takes a block of particles and the stencil of their present places."""
+
+from solver._jit import law
+
+
+@law
+def particle_to_grid(particles, stencil, grid):
+    """Add mass, momentum and internal force to the nodes.
+
+    ``m_i += S_ip m_p``, ``(mv)_i += S_ip m_p v_p``, ``f_i -= V_p sigma_p . grad S_ip``.
+    """
+    for p in range(particles.x.size):
+        mass = particles.mass[p]
+        momentum_x = mass * particles.velocity_x[p]
+        momentum_y = mass * particles.velocity_y[p]
+        xx = -particles.volume[p] * particles.stress_xx[p]
+        yy = -particles.volume[p] * particles.stress_yy[p]
+        xy = -particles.volume[p] * particles.stress_xy[p]
+        for j in range(3):
+            for i in range(3):
+                node = stencil.node[p] + j * grid.columns + i
+                s = stencil.sx[i, p] * stencil.sy[j, p]
+                g_x = stencil.gx[i, p] * stencil.sy[j, p]
+                g_y = stencil.sx[i, p] * stencil.gy[j, p]
+                grid.mass[node] += s * mass
+                grid.momentum[node, 0] += s * momentum_x
+                grid.momentum[node, 1] += s * momentum_y
+                grid.force[node, 0] += xx * g_x + xy * g_y
+                grid.force[node, 1] += xy * g_x + yy * g_y
+
+
+@law
+def interpolate(field, stencil, p, columns):
+    """Return ``sum_i S_ip field_i`` of a nodal vector field ``(nodes, 2)``."""
+    x = 0.0
+    y = 0.0
+    for j in range(3):
+        for i in range(3):
+            node = stencil.node[p] + j * columns + i
+            s = stencil.sx[i, p] * stencil.sy[j, p]
+            x += s * field[node, 0]
+            y += s * field[node, 1]
+    return x, y
+
+
+@law
+def gradient(field, stencil, p, columns):
+    """Return ``sum_i field_i (x) grad S_ip`` of a nodal vector field ``(nodes, 2)``, as (xx, xy, yx, yy)."""
+    xx = 0.0
+    xy = 0.0
+    yx = 0.0
+    yy = 0.0
+    for j in range(3):
+        for i in range(3):
+            node = stencil.node[p] + j * columns + i
+            g_x = stencil.gx[i, p] * stencil.sy[j, p]
+            g_y = stencil.sx[i, p] * stencil.gy[j, p]
+            xx += g_x * field[node, 0]
+            xy += g_y * field[node, 0]
+            yx += g_x * field[node, 1]
+            yy += g_y * field[node, 1]
+    return xx, xy, yx, yy
+
+
+@law
+def spread_mass(particles, stencil, grid):
+    """Add ``S_ip m_p`` to the nodes."""
+    for p in range(particles.x.size):
+        for j in range(3):
+            for i in range(3):
+                node = stencil.node[p] + j * grid.columns + i
+                grid.mass[node] += stencil.sx[i, p] * stencil.sy[j, p] * particles.mass[p]
+
+
+@law
+def spread_momentum(field, momentum_x, momentum_y, stencil, p, columns):
+    """Add ``S_ip m_p v_p`` to a nodal vector field ``(nodes, 2)``."""
+    for j in range(3):
+        for i in range(3):
+            node = stencil.node[p] + j * columns + i
+            s = stencil.sx[i, p] * stencil.sy[j, p]
+            field[node, 0] += s * momentum_x
+            field[node, 1] += s * momentum_y
