@@ -4,6 +4,12 @@ from solver._jit import law
 
 
 @law
+def three(values, p):
+    """Return the column ``p`` of a stencil array in registers, where stores to the grid cannot touch it."""
+    return values[0, p], values[1, p], values[2, p]
+
+
+@law
 def particle_to_grid(particles, stencil, grid):
     """Add mass, momentum and internal force to the nodes.
 
@@ -16,12 +22,14 @@ def particle_to_grid(particles, stencil, grid):
         xx = -particles.volume[p] * particles.stress_xx[p]
         yy = -particles.volume[p] * particles.stress_yy[p]
         xy = -particles.volume[p] * particles.stress_xy[p]
+        first = stencil.node[p]
+        sx, sy, gx, gy = three(stencil.sx, p), three(stencil.sy, p), three(stencil.gx, p), three(stencil.gy, p)
         for j in range(3):
             for i in range(3):
-                node = stencil.node[p] + j * grid.columns + i
-                s = stencil.sx[i, p] * stencil.sy[j, p]
-                g_x = stencil.gx[i, p] * stencil.sy[j, p]
-                g_y = stencil.sx[i, p] * stencil.gy[j, p]
+                node = first + j * grid.columns + i
+                s = sx[i] * sy[j]
+                g_x = gx[i] * sy[j]
+                g_y = sx[i] * gy[j]
                 grid.mass[node] += s * mass
                 grid.momentum[node, 0] += s * momentum_x
                 grid.momentum[node, 1] += s * momentum_y
@@ -66,18 +74,21 @@ def gradient(field, stencil, p, columns):
 def spread_mass(particles, stencil, grid):
     """Add ``S_ip m_p`` to the nodes."""
     for p in range(particles.x.size):
+        first = stencil.node[p]
+        sx, sy = three(stencil.sx, p), three(stencil.sy, p)
         for j in range(3):
             for i in range(3):
-                node = stencil.node[p] + j * grid.columns + i
-                grid.mass[node] += stencil.sx[i, p] * stencil.sy[j, p] * particles.mass[p]
+                grid.mass[first + j * grid.columns + i] += sx[i] * sy[j] * particles.mass[p]
 
 
 @law
 def spread_momentum(field, momentum_x, momentum_y, stencil, p, columns):
     """Add ``S_ip m_p v_p`` to a nodal vector field ``(nodes, 2)``."""
+    first = stencil.node[p]
+    sx, sy = three(stencil.sx, p), three(stencil.sy, p)
     for j in range(3):
         for i in range(3):
-            node = stencil.node[p] + j * columns + i
-            s = stencil.sx[i, p] * stencil.sy[j, p]
+            node = first + j * columns + i
+            s = sx[i] * sy[j]
             field[node, 0] += s * momentum_x
             field[node, 1] += s * momentum_y

@@ -1,0 +1,46 @@
+"""Files that are either wholly there or not there at all, whatever kills the process or the machine."""
+
+import os
+import socket
+from pathlib import Path
+
+
+def write_atomically(path: Path, data: bytes) -> None:
+    """Write `data` to `path` so that a reader sees the old file or the new one, never a part.
+
+    Raises
+    ------
+    OSError
+        When the directory cannot be written or the disk is full; the old file is then untouched.
+    """
+    temporary = temporary_name(path)
+    try:
+        with temporary.open("wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        temporary.replace(path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+    _sync(path.parent)
+
+
+def publish(temporary: Path, path: Path) -> None:
+    """Make the finished file `temporary` durable and give it its name `path` in one step."""
+    _sync(temporary)
+    temporary.replace(path)
+    _sync(path.parent)
+
+
+def temporary_name(path: Path) -> Path:
+    """Return a hidden name beside `path` that no other process uses."""
+    return path.with_name(f".{path.name}.{socket.gethostname()}.{os.getpid()}")
+
+
+def _sync(path: Path) -> None:
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

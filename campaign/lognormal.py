@@ -1,0 +1,34 @@
+"""Lognormal strength parameters, and what their correlation asks of the Gaussian fields behind them."""
+
+from dataclasses import dataclass
+from math import log, log1p, sqrt
+
+import numpy as np
+
+from campaign.correlation import Array
+
+
+@dataclass(frozen=True)
+class Lognormal:
+    """Lognormal distribution: X = exp(mu + sigma Z), sigma^2 = ln(1 + COV^2), mu = ln(mean) - sigma^2 / 2; eq. (5)."""
+
+    mean: float
+    cov: float
+
+    @property
+    def sigma(self) -> float:
+        """Standard deviation of ln X."""
+        return sqrt(log1p(self.cov**2))
+
+    def __call__(self, gaussian: Array) -> Array:
+        """Turn standard Gaussian values into values of this distribution."""
+        return np.asarray(np.exp(log(self.mean) - self.sigma**2 / 2 + self.sigma * gaussian))
+
+
+def gaussian_cross_correlation(rho: float, first: Lognormal, second: Lognormal) -> float:
+    """Return the correlation of two Gaussian fields whose lognormal images have the correlation `rho`.
+
+    rho_G = ln(1 + rho COV_1 COV_2) / (sigma_1 sigma_2); Fenton and Griffiths (2008), Risk Assessment in Geotechnical
+    Engineering, section 6.4. It is within -1 and 1 for every pair that a scene admits.
+    """
+    return log1p(rho * first.cov * second.cov) / (first.sigma * second.sigma)

@@ -1,0 +1,201 @@
+"""The scene: one campaign's description, from a TOML file to a frozen, validated object in SI units."""
+
+import json
+from collections.abc import Iterable, Mapping
+from hashlib import sha256
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict
+
+from campaign.constraints import (
+    NOT_NEGATIVE,
+    POSITIVE,
+    AcuteAngle,
+    Fraction,
+    OpenFraction,
+    PositiveCount,
+    PositiveLength,
+    PositiveNumber,
+    PositivePressure,
+    PositiveTime,
+    Profile,
+    RightAngle,
+    must,
+)
+from campaign.scene_check import flatten, mistakes
+from campaign.scene_document import SceneError, builtin_scenes, read_document
+from campaign.units import Angle, Pressure, UnitWeight
+
+__all__ = ["Scene", "SceneError", "builtin_scenes", "differences", "load_scene"]
+
+EXAMPLE = "ma2023"
+
+
+class Section(BaseModel):
+    """What all sections share: frozen, no unknown keys, no guessing of types, no infinities."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+
+
+class Slope(Section):
+    """A straight slope between two level grounds, on a foundation; lengths in m, angle in rad."""
+
+    height: PositiveLength
+    angle: AcuteAngle
+    crest: PositiveLength
+    plain: PositiveLength
+    foundation: PositiveLength
+
+
+class Geometry(Section):
+    """The ground: either a slope, or a surface as points (x, elevation) in m above the fixed base."""
+
+    slope: Slope | None = None
+    surface: Profile | None = None
+
+
+class Cohesion(Section):
+    """Lognormal peak cohesion, and the deterministic residual one; in Pa."""
+
+    mean: PositivePressure
+    cov: PositiveNumber
+    residual: Annotated[Pressure, NOT_NEGATIVE]
+
+
+class FrictionAngle(Section):
+    """Lognormal peak friction angle, and the deterministic residual one; in rad."""
+
+    mean: AcuteAngle
+    cov: PositiveNumber
+    residual: Annotated[Angle, NOT_NEGATIVE]
+
+
+class Softening(Section):
+    """How strength falls from peak to residual with plastic strain."""
+
+    law: Literal["exponential", "linear", "none"]
+    rate: PositiveNumber | None = None
+    reference_cell: PositiveLength | None = None
+
+    def rate_at(self, cell: float) -> float:
+        """Return the softening rate for cells of `cell` m: local softening needs it in proportion to the cell."""
+        if self.law == "none" or self.rate is None or self.reference_cell is None:
+            return 0.0
+        return self.rate * cell / self.reference_cell
+
+
+class Soil(Section):
+    """Unit weight in N/m3, Young's modulus in Pa, dilation angle in rad, and strength."""
+
+    unit_weight: Annotated[UnitWeight, POSITIVE]
+    young_modulus: PositivePressure
+    poisson_ratio: Annotated[float, must("be at least 0 and below 0.5", lambda ratio: 0.0 <= ratio < 0.5)]
+    dilation_angle: Annotated[Angle, NOT_NEGATIVE] = 0.0
+    cohesion: Cohesion
+    friction_angle: FrictionAngle
+    softening: Softening
+
+
+class RandomField(Section):
+    """The correlated fields of cohesion and friction angle; lengths in m, `angle` of the horizontal axis in rad."""
+
+    correlation: Literal["exponential", "separable-exponential", "squared-exponential"]
+    horizontal: PositiveLength
+    vertical: PositiveLength
+    length_kind: Literal["autocorrelation-distance", "scale-of-fluctuation"]
+    cross_correlation: Annotated[float, must("lie between -1 and 1, both excluded", lambda rho: -1.0 < rho < 1.0)]
+    cross_correlation_of: Literal["gaussian", "lognormal"] = "gaussian"
+    angle: RightAngle = 0.0
+    sampler: Literal["auto", "kronecker", "circulant", "cholesky"] = "auto"
+    resolution: PositiveLength | None = None
+
+
+class Numerics(Section):
+    """Mesh, scheme, time step and duration; cell in m, times in s."""
+
+    cell: PositiveLength
+    particles_per_cell: Annotated[int, must("be 1, 4, 9 or 16", lambda number: number in (1, 4, 9, 16))] = 4
+    basis: Literal["gimp", "linear", "bspline"] = "gimp"
+    stress_update: Literal["musl", "usl", "usf"] = "musl"
+    courant: Annotated[float, must("be above 0 and at most 1.5, for instance 0.6", lambda c: 0.0 < c <= 1.5)] = 0.6
+    flip: Fraction = 1.0
+    locking: Literal["none"] = "none"
+    gravity: Literal["release", "ramp"] = "release"
+    ramp_time: PositiveTime = 2.0
+    end_time: PositiveTime
+    output_interval: PositiveTime = 0.1
+
+
+class Campaign(Section):
+    """How many realizations, from which seed, and when they are enough."""
+
+    realizations: PositiveCount = 1000
+    seed: Annotated[int, NOT_NEGATIVE] = 0
+    mean_tolerance: OpenFraction = 0.01
+    variance_tolerance: OpenFraction = 0.25
+    confidence: OpenFraction = 0.95
+    minimum: Annotated[int, must("be 10 or more, or no interval on a variance means much", lambda n: n >= 10)] = 100
+    block: PositiveCount = 25
+    max_failed_fraction: Fraction = 0.1
+    realization_timeout: PositiveTime = 3600.0
+
+
+class SceneFile(Section):
+    """What a scene file holds."""
+
+    title: str
+    geometry: Geometry
+    soil: Soil
+    field: RandomField
+    numerics: Numerics
+    campaign: Campaign
+
+
+class Scene(SceneFile):
+    """A valid scene, with the name and the text it came from; every number in SI units."""
+
+    name: str
+    text: str
+    overrides: tuple[str, ...] = ()
+
+    def identity(self) -> dict[str, Any]:
+        """Return, by dotted key, every SI value that decides what realization k is; ready for JSON."""
+        sections = self.model_dump(mode="json", include={"geometry", "soil", "field", "numerics"})
+        values = flatten(sections) | {"campaign.seed": self.campaign.seed}
+        return {key: value for key, value in values.items() if value is not None}
+
+    def digest(self) -> str:
+        """Return the SHA-256 of the identity."""
+        return sha256(json.dumps(self.identity(), sort_keys=True).encode()).hexdigest()
+
+
+def load_scene(source: str | Path, overrides: Iterable[str] = ()) -> Scene:
+    """Read and validate a scene.
+
+    Parameters
+    ----------
+    source
+        A TOML file, or the name of a built-in scene.
+    overrides
+        "KEY=VALUE" with a dotted key; a value that is not TOML is taken as text, because shells strip quotes.
+
+    Raises
+    ------
+    SceneError
+        With every mistake at once.
+    """
+    document = read_document(source, overrides)
+    if messages := mistakes(document, SceneFile, read_document(EXAMPLE)):
+        raise SceneError(messages)
+    origin = {"name": document.name, "text": document.text, "overrides": document.overrides}
+    return Scene.model_validate(document.tables | origin)
+
+
+def differences(here: Mapping[str, Any], there: Mapping[str, Any]) -> list[str]:
+    """Say, key by key, how two identities differ; `there` is the one in the results directory."""
+    return [
+        f"{key} is {here.get(key, 'absent')} here but {there.get(key, 'absent')} in the results directory"
+        for key in sorted(here.keys() | there.keys())
+        if here.get(key) != there.get(key)
+    ]

@@ -1,0 +1,94 @@
+"""Text with a unit, such as "20 kPa", to a float in SI, as annotated types for pydantic models."""
+
+import re
+from functools import cache, partial
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+
+from pydantic import BeforeValidator
+
+if TYPE_CHECKING:
+    import pint
+
+
+class Kind(NamedTuple):
+    """A physical dimension as a scene writes it."""
+
+    name: str
+    si_unit: str
+    example: str
+
+
+LENGTH = Kind("a length", "m", "2 m")
+PRESSURE = Kind("a pressure", "Pa", "20 kPa")
+UNIT_WEIGHT = Kind("a unit weight", "N/m^3", "20 kN/m^3")
+ANGLE = Kind("an angle", "rad", "10 deg")
+TIME = Kind("a time", "s", "10 s")
+DENSITY = Kind("a density", "kg/m^3", "2000 kg/m^3")
+NUMBER = Kind("a number without unit", "", "0.1")
+KINDS = (LENGTH, PRESSURE, UNIT_WEIGHT, ANGLE, TIME, DENSITY, NUMBER)
+
+QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S.*?)?\s*")
+BARE_EXPONENT = re.compile(r"(?<=[A-Za-z])(\d)")
+
+
+def si_value(text: Any, kind: Kind) -> float:
+    """Read a number with its unit.
+
+    Parameters
+    ----------
+    text
+        For instance "20 kN/m^3"; "20 kN/m3" is understood too.
+    kind
+        The dimension it must have.
+
+    Returns
+    -------
+    float
+        The value in `kind.si_unit`.
+
+    Raises
+    ------
+    ValueError
+        For a bare number, an unknown unit or a wrong dimension, worded to follow "KEY is VALUE, but".
+    """
+    parts = QUANTITY.fullmatch(text) if isinstance(text, str) else None
+    if isinstance(text, str) and parts is None:
+        raise ValueError(f'{kind.name} is a number followed by a unit, for instance "{kind.example}"')
+    if parts is None or parts[2] is None:
+        raise ValueError(f'{kind.name} needs its unit and quotes, for instance "{kind.example}"')
+    unit = _known_unit(parts[2], kind)
+    if _root(unit) != _root(_registry().Unit(kind.si_unit)):
+        raise ValueError(f'that is {_name(unit)}, and {kind.name} is needed, for instance "{kind.example}"')
+    return float(_registry().Quantity(float(parts[1]), unit).to(kind.si_unit).magnitude)
+
+
+@cache
+def _registry() -> "pint.UnitRegistry[float]":
+    # Building the registry takes a quarter of a second, which only those who read a scene should pay.
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def _known_unit(text: str, kind: Kind) -> "pint.Unit":
+    try:
+        return _registry().Unit(BARE_EXPONENT.sub(r"^\1", text))
+    except Exception as error:  # pint lets errors of its own tokenizer through
+        raise ValueError(f'"{text}" is not a unit; {kind.name} is written for instance "{kind.example}"') from error
+
+
+def _root(unit: "pint.Unit") -> Any:
+    # Root units, not dimensions: to pint a degree, a percent and a bare number all are dimensionless.
+    return _registry().get_root_units(unit)[1]
+
+
+def _name(unit: "pint.Unit") -> str:
+    same = [kind.name for kind in KINDS if _root(unit) == _root(_registry().Unit(kind.si_unit))]
+    return same[0] if same else f"of dimension {unit.dimensionality}"
+
+
+Length = Annotated[float, BeforeValidator(partial(si_value, kind=LENGTH))]
+Pressure = Annotated[float, BeforeValidator(partial(si_value, kind=PRESSURE))]
+UnitWeight = Annotated[float, BeforeValidator(partial(si_value, kind=UNIT_WEIGHT))]
+Angle = Annotated[float, BeforeValidator(partial(si_value, kind=ANGLE))]
+Time = Annotated[float, BeforeValidator(partial(si_value, kind=TIME))]

@@ -1,0 +1,74 @@
+"""Autocorrelation formulas against their definitions."""
+
+from math import cos, exp, pi, sin, sqrt
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+from campaign.correlation import KERNELS, Correlation, autocorrelation_distance
+
+lags = st.floats(-100.0, 100.0)
+angles = st.floats(-3.0, 3.0)
+
+
+@pytest.mark.parametrize("kind", KERNELS)
+def test_autocorrelation_distance_is_where_the_correlation_is_1_over_e(kind):
+    correlation = Correlation(kind, 20.0, 2.0)
+    assert correlation(0.0, 0.0) == 1.0
+    assert correlation(20.0, 0.0) == pytest.approx(exp(-1.0), rel=1e-15)
+    assert correlation(0.0, 2.0) == pytest.approx(exp(-1.0), rel=1e-15)
+
+
+def test_printed_formula_of_ma_2023():
+    """Eq. (1) with one distance per axis: exp(-sqrt((dx/20)^2 + (dy/2)^2))."""
+    assert Correlation("exponential", 20.0, 2.0)(30.0, 4.0) == pytest.approx(exp(-sqrt(1.5**2 + 2.0**2)), rel=1e-15)
+    assert Correlation("separable-exponential", 20.0, 2.0)(30.0, -4.0) == pytest.approx(exp(-1.5 - 2.0), rel=1e-15)
+    assert Correlation("squared-exponential", 20.0, 2.0)(30.0, 4.0) == pytest.approx(exp(-(1.5**2) - 4.0), rel=1e-15)
+
+
+@pytest.mark.parametrize("kind", KERNELS)
+def test_scale_of_fluctuation_is_the_integral_of_the_correlation(kind):
+    """Theta is the integral over the whole line, by quadrature, along either axis; Vanmarcke (1983)."""
+    theta = 3.0
+    distance = autocorrelation_distance(theta, kind)
+    correlation = Correlation(kind, distance, distance)
+    for direction in ((1.0, 0.0), (0.0, 1.0)):
+        half, _ = quad(lambda s, d=direction: float(correlation(s * d[0], s * d[1])), 0.0, np.inf, epsabs=1e-12)
+        assert 2.0 * half == pytest.approx(theta, rel=1e-9)
+
+
+@pytest.mark.parametrize("kind", KERNELS)
+@given(s=lags, angle=angles)
+def test_fabric_turns_counter_clockwise(kind, s, angle):
+    """A step along the inclined fabric is correlated like a horizontal step in level fabric; across it, vertical."""
+    level, inclined = Correlation(kind, 20.0, 2.0), Correlation(kind, 20.0, 2.0, angle)
+    assert inclined(s * cos(angle), s * sin(angle)) == pytest.approx(level(s, 0.0), rel=1e-9, abs=1e-15)
+    assert inclined(-s * sin(angle), s * cos(angle)) == pytest.approx(level(0.0, s), rel=1e-9, abs=1e-15)
+
+
+@pytest.mark.parametrize("kind", KERNELS)
+@given(dx=lags, dy=lags, angle=angles)
+def test_correlation_is_even_and_at_most_one(kind, dx, dy, angle):
+    correlation = Correlation(kind, 20.0, 2.0, angle)
+    assert correlation(dx, dy) == correlation(-dx, -dy)
+    assert 0.0 <= correlation(dx, dy) <= 1.0
+
+
+@pytest.mark.parametrize("kind", KERNELS)
+def test_separable_means_product_of_the_axes(kind):
+    dx, dy = np.linspace(-40.0, 40.0, 9), np.linspace(-4.0, 4.0, 7)[:, None]
+    for angle in (0.0, 0.3, pi):
+        correlation = Correlation(kind, 20.0, 2.0, angle)
+        product = correlation(dx, 0.0) * correlation(0.0, dy)
+        assert correlation.is_separable == np.allclose(correlation(dx, dy), product, rtol=1e-12)
+
+
+def test_reach_is_that_of_the_turned_ellipse():
+    """Extremes of x = L1 cos t cos a - L2 sin t sin a over the ellipse, scanned."""
+    t, a = np.linspace(0.0, 2.0 * np.pi, 100_001), 0.4
+    x = 20.0 * np.cos(t) * cos(a) - 2.0 * np.sin(t) * sin(a)
+    y = 20.0 * np.cos(t) * sin(a) + 2.0 * np.sin(t) * cos(a)
+    assert Correlation("exponential", 20.0, 2.0, a).reach == pytest.approx((x.max(), y.max()), rel=1e-8)

@@ -1,0 +1,42 @@
+"""Doubts: raised for runaway realizations, silent for harmless samples."""
+
+import numpy as np
+import pytest
+
+from campaign.doubts import doubts
+
+
+def normal_runouts(seed, n):
+    return np.random.default_rng(seed).normal(10.8, 0.51, n)
+
+
+@pytest.mark.parametrize("n", [0, 1, 4, 30, 100, 1000])
+def test_normal_run_outs_raise_no_doubt(n):
+    """20 campaigns of each size.
+
+    A share of 20/n (n < 100) or 20 % (n >= 100) is a value beyond 4.4 standard deviations: false alarm below 0.03 at
+    n = 100, the worst size, and below 1e-3 elsewhere.
+    """
+    assert not any(doubts(normal_runouts(seed, n)) for seed in range(20))
+
+
+def test_three_per_cent_of_runaways_are_noticed():
+    values = normal_runouts(1, 1000)
+    values[::33] += 10
+    (doubt,) = doubts(values)
+    assert doubt.startswith("The kurtosis of the run-out is 2")
+
+
+def test_one_runaway_is_named_by_its_realization():
+    """The id is the place among all realizations, the unusable ones included."""
+    values = normal_runouts(2, 200)
+    values[::7] = np.nan
+    values[143] = 25.0
+    tail, single = doubts(values)
+    assert "kurtosis" in tail
+    assert single.startswith("Realization 143 alone, with a run-out of 25 m, makes 8")
+
+
+def test_equal_run_outs_are_suspicious():
+    (doubt,) = doubts(np.full(50, 10.8))
+    assert doubt.startswith("All 50 run-outs are equal")

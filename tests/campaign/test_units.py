@@ -1,0 +1,67 @@
+"""Quantities with units become SI floats, and everything else is refused with a remedy."""
+
+import subprocess
+import sys
+from math import pi
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from campaign.units import ANGLE, LENGTH, PRESSURE, TIME, UNIT_WEIGHT, Kind, si_value
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "value"),
+    [
+        ("20 kPa", PRESSURE, 20e3),
+        ("100 MPa", PRESSURE, 100e6),
+        ("0.02 N/mm^2", PRESSURE, 20e3),
+        ("250 mm", LENGTH, 0.25),
+        (" 1.5e1m ", LENGTH, 15.0),
+        ("-.5 m", LENGTH, -0.5),
+        ("45 deg", ANGLE, pi / 4.0),
+        ("45°", ANGLE, pi / 4.0),
+        ("0.5 rad", ANGLE, 0.5),
+        ("20 kN/m^3", UNIT_WEIGHT, 20e3),
+        ("20 kN/m3", UNIT_WEIGHT, 20e3),
+        ("20 kN/m**3", UNIT_WEIGHT, 20e3),
+        ("1 h", TIME, 3600.0),
+        ("100 ms", TIME, 0.1),
+    ],
+)
+def test_quantities_become_si(text: str, kind: Kind, value: float) -> None:
+    assert si_value(text, kind) == pytest.approx(value, rel=1e-15)
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False, min_value=1e-300))
+def test_a_value_in_si_is_kept_to_the_last_bit(value: float) -> None:
+    assert si_value(f"{value!r} m", LENGTH) == value
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "complaint"),
+    [
+        (20, PRESSURE, 'a pressure needs its unit and quotes, for instance "20 kPa"'),
+        (True, LENGTH, "a length needs its unit"),
+        ("20", PRESSURE, "a pressure needs its unit"),
+        ("", PRESSURE, "a pressure is a number followed by a unit"),
+        ("m", LENGTH, "a length is a number followed by a unit"),
+        ("nan m", LENGTH, "a length is a number followed by a unit"),
+        ("20 kpa", PRESSURE, '"kpa" is not a unit; a pressure is written for instance "20 kPa"'),
+        ("1 m + 2 m", LENGTH, '"m \\+ 2 m" is not a unit'),
+        ("20 m", PRESSURE, "that is a length, and a pressure is needed"),
+        ("2000 kg/m^3", UNIT_WEIGHT, "that is a density, and a unit weight is needed"),
+        ("10 %", ANGLE, "that is a number without unit, and an angle is needed"),
+        ("3 m deg", LENGTH, "that is of dimension"),
+    ],
+)
+def test_what_is_not_such_a_quantity_is_refused_with_its_remedy(text: object, kind: Kind, complaint: str) -> None:
+    with pytest.raises(ValueError, match=complaint):
+        si_value(text, kind)
+
+
+def test_importing_the_scene_does_not_load_pint() -> None:
+    """Pint and its registry take a quarter of a second; workers that are handed a scene never need them."""
+    check = "import sys, campaign.scene; sys.exit('pint' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", check], check=False).returncode == 0
