@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from campaign.exit_codes import RefusalError
 from campaign.random_field import StrengthSampler, strength_sampler
 from campaign.record import Record, Status, Value
 from campaign.scene import Geometry, Scene
 from solver import observables
 from solver.basis import half_length_in_cells
 from solver.geometry import Surface, fill_ground, slope_surface
-from solver.gravity import in_situ_state
+from solver.gravity import NotSettledError, in_situ_state
 from solver.march import FAILED, History, March, Outcome, run
 from solver.model import STANDARD_GRAVITY, Model, make_soil
 from solver.particles import Particles, copy_particles
@@ -100,12 +101,12 @@ def prepare(scene: Scene) -> Setup:
 
     Raises
     ------
-    solver.gravity.NotSettledError
+    RefusalError
         If the ground does not come to rest under its own weight.
     """
     model = model_of(scene)
     ground = fill_ground(model.surface, model.cell_size, model.particles_per_cell, model.density)
-    start = in_situ_state(model) if scene.numerics.gravity == "release" else copy_particles(ground)
+    start = _loaded(model) if scene.numerics.gravity == "release" else copy_particles(ground)
     edges = column_edges(model)
     coordinates = {
         "time": output_times(scene.numerics.end_time, scene.numerics.output_interval),
@@ -114,6 +115,13 @@ def prepare(scene: Scene) -> Setup:
         "particle_z": ground.y,
     }
     return Setup(scene, model, ground, start, coordinates)
+
+
+def _loaded(model: Model) -> Particles:
+    try:
+        return in_situ_state(model)
+    except NotSettledError as error:
+        raise RefusalError(str(error)) from error
 
 
 def output_times(end_time: float, interval: float) -> Array:

@@ -8,6 +8,7 @@ import hashlib
 import os
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import numba
 
@@ -24,9 +25,9 @@ def _cache_directory() -> Path:
     return Path(tempfile.gettempdir()) / f"runout-solver-{user}" / digest.hexdigest()[:16]
 
 
-numba.config.CACHE_DIR = os.environ.get("NUMBA_CACHE_DIR") or str(_cache_directory())
+numba.config.CACHE_DIR = os.environ.get("NUMBA_CACHE_DIR") or str(_cache_directory())  # type: ignore[attr-defined]
 
-_FLAGS = {
+_FLAGS: dict[str, Any] = {
     # Sums may be reordered and fused, which vectorises them. NaN and infinity keep their meaning, because the guards
     # against divergence rest on comparisons with NaN being false.
     "fastmath": {"contract", "reassoc", "arcp", "nsz"},

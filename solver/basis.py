@@ -9,6 +9,7 @@ three nodes from ``floor(xi - l_p)`` on. With ``d = xi - floor(xi - l_p)`` and `
     S_0' = -1 + t / (2 l_p)          S_2' = t / (2 l_p)       S_1' = -S_0' - S_2'
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -30,7 +31,7 @@ def half_length_in_cells(basis: str, particles_per_cell: int) -> float:
     particles_per_cell : int
         A square number; uGIMP particles tile the cell, so ``l_p = h / (2 sqrt(particles_per_cell))``.
     """
-    return HALF_LENGTH_IN_CELLS.get(basis, 0.5 / np.sqrt(particles_per_cell))
+    return HALF_LENGTH_IN_CELLS.get(basis, 0.5 / math.sqrt(particles_per_cell))
 
 
 class Stencil(NamedTuple):

@@ -52,9 +52,7 @@ def in_situ_state(model: Model) -> Particles:
     scheme = Scheme(STRESS_UPDATES["musl"], 1.0, LOCAL_DAMPING)
     dt = stable_step(min(model.courant, 0.5), model.cell_size, model.wave_speed, 0.0)
     for _ in range(MOST_STEPS // STEPS_BETWEEN_CHECKS):
-        taken = advance(
-            particles, grid, work, model.soil, scheme, STANDARD_GRAVITY, 0.0, dt, STEPS_BETWEEN_CHECKS
-        )
+        taken = advance(particles, grid, work, model.soil, scheme, STANDARD_GRAVITY, 0.0, dt, STEPS_BETWEEN_CHECKS)
         if taken < STEPS_BETWEEN_CHECKS or not np.isfinite(observables.kinetic_energy(particles)):
             break
         if unbalanced_share(grid, STANDARD_GRAVITY) < UNBALANCED:

@@ -18,6 +18,7 @@ REST_ENERGY = 1e-3  # of the largest kinetic energy
 REST_SPEED = 0.05  # m/s, of the farthest particle: it would still travel v^2 / 2a, a few millimetres
 REST_TIME = 0.2  # s both must hold
 MOST_STEPS_UNCHECKED = 64
+MOST_ENERGY_CREATED = 0.05  # of the work of gravity: beyond it the scheme, not the ground, drives the slide
 
 
 class Outcome(Enum):
@@ -125,6 +126,16 @@ class March:
         imbalance = observables.kinetic_energy(self.particles) + internal - released
         return float(imbalance / released) if released != 0.0 else 0.0
 
+    @property
+    def creates_energy(self) -> bool:
+        """Whether a slope that moves has gained more energy than gravity gave, the mark of an unstable step."""
+        has_moved = observables.displacement(self.particles, self.start).max() > FAILED
+        error = self.energy_error()
+        if has_moved and error > MOST_ENERGY_CREATED:
+            self.reason = f"The scheme created energy, {error:.1%} of the work of gravity; lower numerics.courant."
+            return True
+        return False
+
 
 class RestDetector:
     """Decide that a slide is over: it has moved, and its energy and its advance have stayed small for a while."""
@@ -169,6 +180,7 @@ def run(
     series = {name: np.full(times.size, np.nan) for name in ("runout", "max_displacement", "kinetic_energy")}
     rest = RestDetector()
     outcome = Outcome.END_TIME
+    failure = None
     for k, time in enumerate(times):
         failure = march.advance_to(float(time))
         if failure:
@@ -186,6 +198,8 @@ def run(
             for values in series.values():
                 values[k + 1 :] = values[k]
             break
+    if not failure and march.creates_energy:
+        outcome = Outcome.DIVERGED
     return History(
         time=times,
         outcome=outcome,

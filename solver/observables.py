@@ -65,7 +65,8 @@ def resolved_kinetic_energy(grid: Grid) -> float:
     by them.
     """
     has_mass = grid.mass > SMALLEST_MASS
-    return float(0.5 * np.sum(grid.momentum[has_mass] ** 2 / grid.mass[has_mass][:, None]))
+    free = np.stack([grid.free_x[has_mass], grid.free_y[has_mass]], axis=1)
+    return float(0.5 * np.sum(free * grid.momentum[has_mass] ** 2 / grid.mass[has_mass][:, None]))
 
 
 def fastest(particles: Particles) -> float:

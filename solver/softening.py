@@ -26,9 +26,7 @@ def exp_decay(x):
 def sine(x):
     """Return ``sin(x)`` for ``0 <= x <= pi / 2`` by its Taylor series."""
     z = x * x
-    return x * (
-        1 - z / 6 * (1 - z / 20 * (1 - z / 42 * (1 - z / 72 * (1 - z / 110 * (1 - z / 156 * (1 - z / 210))))))
-    )
+    return x * (1 - z / 6 * (1 - z / 20 * (1 - z / 42 * (1 - z / 72 * (1 - z / 110 * (1 - z / 156 * (1 - z / 210)))))))
 
 
 @law

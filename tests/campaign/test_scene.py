@@ -219,7 +219,7 @@ def test_a_file_that_is_not_text_is_refused(tmp_path: Path) -> None:
         ("soil.cohesion.residual=21 kPa", "it must not exceed the mean peak cohesion, 20 kPa"),
         ("soil.friction_angle.residual=11 deg", "it must not exceed the mean peak friction angle, 10 deg"),
         ("soil.dilation_angle=6 deg", "it must not exceed the residual friction angle, 5 deg"),
-        ("soil.friction_angle.cov=0.5", "would then reach 90 deg; use less than 0.434."),
+        ("soil.friction_angle.cov=0.5", "would then reach 90 deg; use less than 0.433."),
         ("field.sampler=kronecker", 'is no product of a horizontal and a vertical one; use "auto" or "circulant"'),
         ("field.resolution=1.5 m", "use at most 1 m"),
         ("numerics.cell=3.8 m", "use at most 3.75 m"),

@@ -1,0 +1,145 @@
+"""The door: `campaign` and its commands.
+
+Everything heavy is imported by the command that needs it, so that a typing error is answered at once and `status` works
+where MPI cannot be started.
+"""
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from campaign.exit_codes import ExitCode, RefusalError
+
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+
+DEFAULT_SCENE = "ma2023"
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Carry out one command and return its exit code; without arguments that is `run ma2023`."""
+    _pin_threads()
+    given = sys.argv[1:] if arguments is None else list(arguments)
+    options = _parser().parse_args(given or ["run", DEFAULT_SCENE])
+    try:
+        code: ExitCode = options.command(options)
+    except RefusalError as refusal:
+        print(refusal, file=sys.stderr)
+        return ExitCode.REFUSED
+    return code
+
+
+def _pin_threads() -> None:
+    """Give each rank one thread, before NumPy is imported.
+
+    One realization is one core, and the results of BLAS depend on its threads: a user's own setting must not win.
+    """
+    for name in THREADS:
+        os.environ[name] = "1"
+
+
+def _run(options: argparse.Namespace) -> ExitCode:
+    from campaign import realization
+    from campaign.runner import run
+    from campaign.scene import load_scene
+
+    return run(lambda: load_scene(options.scene, _overrides(options)), options.out, realization, options.allow_drift)
+
+
+def _validate(options: argparse.Namespace) -> ExitCode:
+    from campaign.cost import cost
+    from campaign.scene import SceneError, load_scene
+
+    try:
+        scene = load_scene(options.scene, _overrides(options))
+    except SceneError as error:
+        raise RefusalError(str(error)) from error
+    print(f"{scene.title}: a valid scene; {cost(scene)}.")
+    return ExitCode.DONE
+
+
+def _status(options: argparse.Namespace) -> ExitCode:
+    from campaign.status import status, watch
+
+    if options.watch:
+        watch(options.directory)
+    else:
+        print(status(options.directory))
+    return ExitCode.DONE
+
+
+def _report(options: argparse.Namespace) -> ExitCode:
+    from campaign.report import write_report
+
+    if not (options.directory / "results.nc").exists():
+        raise RefusalError(
+            f"{options.directory} holds no results.nc; give the directory of a campaign that has results."
+        )
+    print(write_report(options.directory))
+    return ExitCode.DONE
+
+
+def _replay(options: argparse.Namespace) -> ExitCode:
+    from campaign import manifest
+    from campaign.replay import replay
+
+    manifest.read(options.directory)
+    print(replay(options.directory, options.realization))
+    return ExitCode.DONE
+
+
+def _scenes(_options: argparse.Namespace) -> ExitCode:
+    from campaign.scene import builtin_scenes
+
+    for name, title in builtin_scenes().items():
+        print(f"{name:20}{title}")
+    return ExitCode.DONE
+
+
+def _overrides(options: argparse.Namespace) -> list[str]:
+    """Return the overrides in the order of their precedence."""
+    named = {"campaign.realizations": options.realizations, "campaign.seed": options.seed}
+    return [*options.set, *(f"{key}={value}" for key, value in named.items() if value is not None)]
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="campaign", description="How far will this slope run, and how sure are we?")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    run = commands.add_parser("run", help="run a campaign, or continue it")
+    _add_scene(run)
+    run.add_argument("--out", metavar="DIR", type=Path, help="results directory (default: campaign-NAME)")
+    run.add_argument("--allow-drift", action="store_true", help="continue what another version of the solver began")
+    run.set_defaults(command=_run)
+
+    validate = commands.add_parser("validate", help="find every mistake in a scene, estimate its cost")
+    _add_scene(validate)
+    validate.set_defaults(command=_validate)
+
+    status = commands.add_parser("status", help="how a campaign stands, while it runs or after")
+    status.add_argument("directory", metavar="DIR", type=Path)
+    status.add_argument("--watch", action="store_true", help="again and again, until it ends")
+    status.set_defaults(command=_status)
+
+    report = commands.add_parser("report", help="figures and a page from results.nc")
+    report.add_argument("directory", metavar="DIR", type=Path)
+    report.set_defaults(command=_report)
+
+    replay = commands.add_parser("replay", help="one realization again, with full particle output")
+    replay.add_argument("directory", metavar="DIR", type=Path)
+    replay.add_argument("realization", metavar="K", type=int, help="its id; -1 is the deterministic run")
+    replay.set_defaults(command=_replay)
+
+    scenes = commands.add_parser("scenes", help="list the built-in scenes")
+    scenes.set_defaults(command=_scenes)
+    return parser
+
+
+def _add_scene(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scene", metavar="SCENE", help="a TOML file, or the name of a built-in scene")
+    parser.add_argument("--realizations", metavar="N", type=int, help="at most this many")
+    parser.add_argument("--seed", metavar="S", type=int, help="seed of the random fields")
+    parser.add_argument(
+        "--set", metavar="KEY=VALUE", action="append", default=[], help='for instance soil.cohesion.mean="25 kPa"'
+    )

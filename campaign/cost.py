@@ -1,0 +1,47 @@
+"""What a campaign will cost, from its scene alone."""
+
+import math
+
+from campaign.progress import duration
+from campaign.scene import Geometry, Scene
+
+GRAVITY = 9.81
+
+PARTICLE_STEPS = 10e6
+"""Particle-steps a second on an ordinary core, as measured by the benchmark in tests/benchmarks."""
+
+
+def cost(scene: Scene) -> str:
+    """Return the estimated size and time of a scene's campaign; at most, since slides rest before the end."""
+    particles = particle_count(scene)
+    steps = scene.numerics.end_time / time_step(scene)
+    seconds = particles * steps / PARTICLE_STEPS
+    total = seconds * scene.campaign.realizations
+    return (
+        f"about {particles:,} particles and {steps:,.0f} steps: at most {duration(seconds)} a realization and "
+        f"{total / 3600:.1f} core-hours for all {scene.campaign.realizations} at {PARTICLE_STEPS / 1e6:g} million "
+        "particle-steps a second"
+    )
+
+
+def particle_count(scene: Scene) -> int:
+    """Return the approximate number of particles: the area of the ground over that of a particle."""
+    return round(_area(scene.geometry) / scene.numerics.cell**2 * scene.numerics.particles_per_cell)
+
+
+def time_step(scene: Scene) -> float:
+    """Return the time step of ground at rest [s], courant h / c_p with the elastic P-wave speed c_p."""
+    modulus, ratio = scene.soil.young_modulus, scene.soil.poisson_ratio
+    p_wave_modulus = modulus * (1 - ratio) / ((1 + ratio) * (1 - 2 * ratio))
+    speed = math.sqrt(p_wave_modulus * GRAVITY / scene.soil.unit_weight)
+    return scene.numerics.courant * scene.numerics.cell / speed
+
+
+def _area(geometry: Geometry) -> float:
+    if geometry.surface is not None:
+        points = zip(geometry.surface, geometry.surface[1:], strict=False)
+        return sum((x2 - x1) * (z1 + z2) / 2 for (x1, z1), (x2, z2) in points)
+    slope = geometry.slope
+    assert slope is not None
+    run = slope.height / math.tan(slope.angle)
+    return slope.foundation * (slope.crest + run + slope.plain) + slope.height * (slope.crest + run / 2)

@@ -1,0 +1,54 @@
+"""Which realization next, and when no more: rank 0's desk, without MPI and without a clock of its own."""
+
+from collections.abc import Callable, Container, Iterator
+from threading import Lock
+
+from campaign.seeds import BASELINE
+from campaign.tally import Report, Tally
+
+
+class Dispatcher:
+    """Hands out the missing realizations, the baseline first; may be called from several threads.
+
+    Parameters
+    ----------
+    tally
+        The account, holding what earlier starts have finished.
+    obstacle
+        Given the time a realization may take [s], says why none may be started now, "" if it may.
+
+    Attributes
+    ----------
+    stopped
+        Why the hand-out ended before the campaign did, "" if it did not.
+    """
+
+    def __init__(self, tally: Tally, obstacle: Callable[[float], str]) -> None:
+        self.stopped = ""
+        self._tally = tally
+        self._obstacle = obstacle
+        self._missing = _missing(tally.maximum, frozenset(tally.outcomes))
+        self._lock = Lock()
+
+    def exchange(self, report: Report) -> int | None:
+        """Take a rank's report and return its next realization; None is the end."""
+        with self._lock:
+            if report.outcome is not None:
+                self._tally.add(report.outcome)
+            if self._tally.size is not None:
+                return None
+            self.stopped = self.stopped or report.problem or self._obstacle(self._longest())
+            return None if self.stopped else next(self._missing, None)
+
+    def observe(self, look: Callable[[Tally], None]) -> None:
+        """Show the account to `look` while nobody changes it."""
+        with self._lock:
+            look(self._tally)
+
+    def _longest(self) -> float:
+        """Return the longest realization so far [s]: a prediction that seldom falls short."""
+        return max((outcome.wall_time for outcome in self._tally.outcomes.values()), default=0.0)
+
+
+def _missing(maximum: int, finished: Container[int]) -> Iterator[int]:
+    return (k for k in (BASELINE, *range(maximum)) if k not in finished)

@@ -1,0 +1,1 @@
+"""The figures of a campaign; besides these modules nothing imports matplotlib."""

@@ -1,0 +1,92 @@
+"""How a campaign is getting on, in plain lines: a pipe, a log file and a terminal all show them alike."""
+
+import math
+import time
+from collections.abc import Callable
+
+from campaign.statistics import Interval, mean_interval, variance_interval
+from campaign.tally import Tally
+
+PERIOD = 15.0
+"""Seconds between lines when nothing else calls for one."""
+
+
+def say(text: str) -> None:
+    """Print a whole line at once, since ranks share the output."""
+    print(f"{text}\n", end="", flush=True)
+
+
+class Progress:
+    """Prints a line at every checkpoint and now and then between them.
+
+    Parameters
+    ----------
+    tally
+        The account of the campaign, holding what earlier starts have finished.
+    """
+
+    def __init__(self, tally: Tally, speak: Callable[[str], None] = say) -> None:
+        self._speak = speak
+        self._begin = self._last = time.monotonic()
+        self._before = tally.done
+        self._shown = (tally.done, tally.checkpoints())
+
+    def tick(self, tally: Tally) -> None:
+        """Print a line if one is due; call it often."""
+        now, state = time.monotonic(), (tally.done, tally.checkpoints())
+        at_checkpoint, is_news = state[1] != self._shown[1], state[0] != self._shown[0]
+        if at_checkpoint or (is_news and now - self._last > PERIOD):
+            self._last, self._shown = now, state
+            self._speak(self.line(tally))
+
+    def line(self, tally: Tally) -> str:
+        """Return the state of the campaign with the time since its start and the time left."""
+        elapsed = time.monotonic() - self._begin
+        rate = (tally.done - self._before) / elapsed if elapsed > 0 else 0.0
+        return f"[{duration(elapsed):>8}] {state_line(tally)}{_time_left(tally, rate)}"
+
+
+def state_line(tally: Tally) -> str:
+    """Return counts and estimates, each with its interval."""
+    return f"{tally.done}/{tally.maximum} done, {tally.failed} failed{_estimates(tally)}"
+
+
+def mean_text(mean: Interval) -> str:
+    """Return the mean run-out with its half-width, "10.80 +- 0.05 m"."""
+    return f"{mean.estimate:.2f} +- {(mean.upper - mean.lower) / 2:.2f} m"
+
+
+def std_text(variance: Interval) -> str:
+    """Return the standard deviation with its interval, which is the square root of the variance's."""
+    if not math.isfinite(variance.lower):
+        return "not enough yet"
+    lower, std, upper = (math.sqrt(v) for v in (variance.lower, variance.estimate, variance.upper))
+    return f"{std:.2f} m ({lower:.2f} to {upper:.2f})"
+
+
+def duration(seconds: float) -> str:
+    """Return a length of time as a person would write it, "45 s", "12 min", "3.5 h"."""
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
+
+
+def _estimates(tally: Tally) -> str:
+    runouts = tally.runouts()
+    runouts = runouts[runouts == runouts]
+    if len(runouts) < 2:
+        return ""
+    mean = mean_interval(runouts, tally.rule.confidence)
+    variance = variance_interval(runouts, tally.rule.confidence)
+    return f" | run-out {mean_text(mean)}, std {std_text(variance)}"
+
+
+def _time_left(tally: Tally, rate: float) -> str:
+    needed, forecast = tally.maximum, ""
+    if tally.prefix >= tally.rule.minimum:
+        predicted = float(tally.history().predicted_n[-1])
+        needed = int(min(predicted, tally.maximum)) if math.isfinite(predicted) else tally.maximum
+        forecast = f" | about {predicted:.0f} needed" if math.isfinite(predicted) else ""
+    if rate <= 0 or needed <= tally.done:
+        return forecast
+    return f"{forecast or ' |'}{',' if forecast else ''} {duration((needed - tally.done) / rate)} left"

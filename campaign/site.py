@@ -1,0 +1,123 @@
+"""A results directory in the hands of rank 0: opened for work, and concluded."""
+
+from pathlib import Path
+
+from campaign import dataset, manifest
+from campaign.attempts import Attempts
+from campaign.exit_codes import ExitCode, RefusalError
+from campaign.lock import DirectoryLock
+from campaign.model import Setup, sizes
+from campaign.progress import say
+from campaign.provenance import attributes
+from campaign.record import Record, Status, missing_values
+from campaign.scene import Scene
+from campaign.seeds import BASELINE
+from campaign.store import RecordStore
+from campaign.summary import summary
+from campaign.tally import Tally, outcome_of, tally_of
+
+
+class Site:
+    """The directory of a scene's campaign, locked for this process.
+
+    Raises
+    ------
+    RefusalError
+        When the directory cannot be written, is in use, or belongs to something else.
+    """
+
+    def __init__(self, scene: Scene, directory: Path, ranks: int, allow_drift: bool) -> None:
+        self.scene = scene
+        self.directory = directory
+        self.store = RecordStore(directory)
+        self.attempts = Attempts(directory)
+        self._lock = DirectoryLock(directory)
+        try:
+            self._open(ranks, allow_drift)
+        except OSError as error:
+            raise RefusalError(f"{directory} cannot be written ({error}); give another --out, or make room.") from error
+
+    def _open(self, ranks: int, allow_drift: bool) -> None:
+        self.directory.mkdir(parents=True, exist_ok=True)
+        notes = [self._lock.acquire()]
+        try:
+            notes += manifest.begin(self.directory, self.scene, ranks, allow_drift)
+            self.store.create()
+            self.attempts.create()
+            notes += self.store.recover()
+        except BaseException:
+            self.close()
+            raise
+        for note in filter(None, notes):
+            say(note)
+
+    def announce(self, ranks: int, tally: Tally) -> None:
+        """Say what is about to be done."""
+        earlier = f"; {tally.done} are finished already" if tally.done else ""
+        say(f"{self.scene.title}: at most {tally.maximum} realizations on {ranks} ranks, in {self.directory}{earlier}.")
+
+    def close(self) -> None:
+        """Give the directory free."""
+        self._lock.release()
+
+    def tally(self, setup: Setup) -> Tally:
+        """Return the account of what earlier starts have finished or given up."""
+        finished = self.store.finished()
+        for realization, reason in self.attempts.given_up().items():
+            if realization not in finished:
+                say(f"Realization {realization} is recorded as crashed: it {reason}.")
+                self.store.write(Record(realization, Status.crashed, reason, missing_values(sizes(setup))))
+        tally = tally_of(self.scene)
+        for record in self.store.read_all():
+            tally.add(outcome_of(record))
+        return tally
+
+    def conclude(self, setup: Setup, tally: Tally, stopped: str) -> ExitCode:
+        """Write the results, say how the campaign ended, and return its exit code."""
+        code, verdict = _end(tally, stopped)
+        say(summary(self.scene, tally, verdict, self.directory))
+        try:
+            self.store.pack()
+            self._write_results(setup, tally, verdict)
+            manifest.end(self.directory, code, verdict)
+        except OSError as error:
+            say(f"The results cannot be written ({error}). All records are kept: make room and repeat the command.")
+            return ExitCode.RESUMABLE
+        if tally.prefix > 0:
+            _attempt_report(self.directory)
+        if code is ExitCode.RESUMABLE:
+            say("Give the same command again to continue.")
+        return code
+
+    def _write_results(self, setup: Setup, tally: Tally, verdict: str) -> None:
+        if tally.prefix == 0:
+            return
+        records = [self.store.read(realization) for realization in range(tally.prefix)]
+        about = attributes(self.scene, manifest.read(self.directory), verdict)
+        result = dataset.build(setup, records, self.store.read(BASELINE), tally.history(), about)
+        dataset.write(result, self.directory / "results.nc")
+
+
+def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:
+    if tally.too_many_failed:
+        failed, limit = tally.failed_in_prefix, 100 * tally.max_failed_fraction
+        return (
+            ExitCode.TOO_MANY_FAILED,
+            f"{failed} of {tally.prefix} realizations failed, more than the {limit:g} % of max_failed_fraction",
+        )
+    verdict = tally.history().verdict if tally.prefix else "no result yet"
+    if tally.size is None:
+        return ExitCode.RESUMABLE, f"stopped early ({stopped}); {verdict}"
+    if tally.history().converged_at is None:
+        return ExitCode.DONE, f"stopped at the maximum of {tally.maximum} realizations; {verdict}"
+    return ExitCode.DONE, verdict
+
+
+def _attempt_report(directory: Path) -> None:
+    """Draw the figures if that can be done; the results do not depend on it."""
+    try:
+        from campaign.report import write_report
+
+        say(f"Report: {write_report(directory)}")
+    except Exception as error:
+        say(f"The report could not be made ({error!r}); results.nc is safe. Try again: campaign report {directory}")

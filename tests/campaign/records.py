@@ -1,0 +1,23 @@
+"""Made-up records for tests."""
+
+import numpy as np
+
+from campaign.record import QUANTITIES, Record, Status
+
+SIZES = {"time": 5, "x": 3, "particle": 4}
+
+
+def make_record(realization: int, status: Status = Status.slid, reason: str = "") -> Record:
+    rng = np.random.default_rng(realization + 10)
+    values = {}
+    for name, quantity in QUANTITIES.items():
+        array = rng.integers(0, 2, [SIZES[dim] for dim in quantity.dims]).astype(quantity.dtype)
+        values[name] = array if array.ndim else array.item()
+    values["final_runout"] = float(rng.normal(10, 0.5))
+    return Record(realization, status, reason, values)
+
+
+def assert_same(one: Record, other: Record) -> None:
+    assert (one.realization, one.status, one.reason) == (other.realization, other.status, other.reason)
+    for name in QUANTITIES:
+        np.testing.assert_array_equal(one.values[name], other.values[name], err_msg=name, strict=True)

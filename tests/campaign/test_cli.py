@@ -1,0 +1,120 @@
+"""The command line: what it understands, what it answers, and its exit codes."""
+
+import math
+import subprocess
+import sys
+
+import pytest
+
+from campaign import cli, walltime
+from campaign.launcher import mismatch
+from campaign.signals import ECHO, StopRequest
+
+
+@pytest.fixture(autouse=True)
+def keep_threads(monkeypatch):
+    monkeypatch.setattr(cli, "_pin_threads", lambda: None)
+
+
+def test_validate_accepts_a_scene_and_estimates_its_cost(capsys):
+    assert cli.main(["validate", "ma2023-printed"]) == 0
+    out = capsys.readouterr().out
+    assert "valid scene" in out
+    assert "core-hours" in out
+
+
+def test_the_estimate_is_near_the_papers_number_of_particles():
+    """10,090 particles (paper, section 3)."""
+    from campaign.cost import particle_count
+    from campaign.scene import load_scene
+
+    assert particle_count(load_scene("ma2023-printed")) == pytest.approx(10_090, rel=0.01)
+
+
+@pytest.mark.parametrize("command", ["validate", "run"])
+def test_an_unknown_key_is_a_sentence_and_not_a_traceback(command, tmp_path):
+    arguments = [command, "ma2023", "--set", 'soil.cohesionn.mean="20 kPa"']
+    arguments += ["--out", str(tmp_path / "x")] if command == "run" else []
+    program = "import sys; from campaign.cli import main; sys.exit(main())"
+    if command == "run":
+        pytest.importorskip("campaign.realization")
+    result = subprocess.run([sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False)
+    assert result.returncode == 2
+    assert "cohesionn" in result.stderr
+    assert "Traceback" not in result.stderr
+    assert not (tmp_path / "x").exists()
+
+
+def test_later_options_win_over_set():
+    options = cli._parser().parse_args(["run", "s", "--seed", "7", "--realizations", "4", "--set", "campaign.seed=1"])
+    assert cli._overrides(options) == ["campaign.seed=1", "campaign.realizations=4", "campaign.seed=7"]
+
+
+def test_without_arguments_the_papers_scene_is_run(monkeypatch):
+    seen = []
+    monkeypatch.setattr(cli, "_run", lambda options: seen.append(options.scene) or 0)
+    assert cli.main([]) == 0
+    assert seen == ["ma2023"]
+
+
+@pytest.mark.parametrize("arguments", [["nonsense"], ["run"], ["replay", "dir", "first"]])
+def test_a_command_that_cannot_be_read_is_a_usage_error(arguments):
+    with pytest.raises(SystemExit) as error:
+        cli.main(arguments)
+    assert error.value.code == 2
+
+
+def test_scenes_lists_the_built_in_scenes(capsys):
+    assert cli.main(["scenes"]) == 0
+    assert "ma2023-printed" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", [["status"], ["replay"]])
+def test_a_directory_without_a_campaign_is_refused(command, tmp_path, capsys):
+    if command == ["replay"]:
+        pytest.importorskip("campaign.replay")
+    code = cli.main([*command, str(tmp_path), *(["3"] if command == ["replay"] else [])])
+    assert code == 2
+    assert "holds no campaign" in capsys.readouterr().err
+
+
+def test_neither_mpi_nor_numpy_is_needed_to_read_the_command_line():
+    program = "import sys, campaign.cli; sys.exit(bool({'mpi4py', 'numpy', 'matplotlib'} & set(sys.modules)))"
+    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "seconds"),
+    [("45", 45), ("1:30", 90), ("2:00:01", 7201), ("1-00:00:10", 86410), ("UNLIMITED", math.inf), ("", math.inf)],
+)
+def test_slurms_times_are_read(text, seconds):
+    """Formats of squeue's %L, from its manual."""
+    assert walltime.remaining(text) == seconds
+
+
+@pytest.mark.parametrize(
+    ("size", "environment", "refused"),
+    [
+        (1, {}, False),
+        (4, {"PMI_SIZE": "4"}, False),
+        (1, {"PMI_SIZE": "1", "SLURM_STEP_NUM_TASKS": "2"}, False),
+        (1, {"SLURM_NTASKS": "4"}, False),
+        (1, {"PMI_SIZE": "2"}, True),
+        (1, {"SLURM_STEP_NUM_TASKS": "4"}, True),
+    ],
+)
+def test_a_lone_rank_of_many_is_noticed(size, environment, refused):
+    """Under hydra in a batch job SLURM_STEP_NUM_TASKS counts nodes: the launcher's own count comes first."""
+    assert bool(mismatch(size, environment)) is refused
+
+
+def test_the_second_interrupt_stops_now_but_an_echo_of_the_first_does_not(monkeypatch):
+    clock = [100.0]
+    monkeypatch.setattr("campaign.signals.time.monotonic", lambda: clock[0])
+    stop = StopRequest()
+    stop.receive(2)
+    stop.receive(2)
+    assert (stop.drain, stop.now) == (True, False)
+    clock[0] += 2 * ECHO
+    stop.receive(2)
+    assert stop.now

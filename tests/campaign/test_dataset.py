@@ -1,0 +1,114 @@
+"""The dataset is what design and CF promise, and opens with xarray alone."""
+
+from types import SimpleNamespace
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray as xr
+from records import SIZES, make_record
+
+from campaign import dataset
+from campaign.convergence import Rule, history
+from campaign.record import QUANTITIES, Status
+from campaign.seeds import BASELINE
+
+SETUP = SimpleNamespace(
+    n_particles=SIZES["particle"],
+    toe_x=35.0,
+    coordinates={
+        "time": np.linspace(0, 1, SIZES["time"]),
+        "x": np.arange(float(SIZES["x"])),
+        "particle_x": np.arange(float(SIZES["particle"])),
+        "particle_z": np.ones(SIZES["particle"]),
+    },
+)
+STATUSES = [Status.slid, Status.no_slide, Status.crashed, *[Status.slid] * 67]
+RECORDS = [make_record(k, status, "no mass" if status is Status.crashed else "") for k, status in enumerate(STATUSES)]
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory):
+    runouts = np.array([record.values["final_runout"] for record in RECORDS])
+    usable = np.array([status is Status.slid for status in STATUSES])
+    estimates = history(runouts, usable, Rule(0.01, 0.1, 0.95, 20, 25), 10.0)
+    built = dataset.build(SETUP, RECORDS, make_record(BASELINE), estimates, {"seed": "7", "scene": "title = 'é'\n"})
+    target = tmp_path_factory.mktemp("results") / "results.nc"
+    dataset.write(built, target)
+    return target
+
+
+@pytest.fixture
+def opened(path):
+    with xr.open_dataset(path) as data:
+        yield data
+
+
+def test_time_stays_a_number_of_seconds(opened):
+    """Also where xarray decodes time: only spelled-out units such as "seconds" become a timedelta."""
+    assert opened.time.dtype == opened.settle_time.dtype == opened.wall_time.dtype == np.float64
+    assert opened.time.attrs["units"] == "s"
+
+
+def test_dimensions_are_those_of_the_table(opened):
+    for name, quantity in QUANTITIES.items():
+        if name != "displaced":
+            assert opened[name].dims == ("realization", *quantity.dims)
+    assert opened.influence_probability.dims == ("particle",)
+    assert opened.deterministic_runout.dims == ("time",)
+    assert opened.mean_ci.dims == ("checkpoint", "bound")
+
+
+def test_every_float_has_a_unit_and_every_variable_a_name(opened):
+    for name, variable in opened.variables.items():
+        assert "long_name" in variable.attrs, name
+        assert variable.dtype.kind != "f" or "units" in variable.attrs, name
+
+
+def test_values_are_exact(opened):
+    np.testing.assert_array_equal(opened.runout, np.stack([record.values["runout"] for record in RECORDS]))
+    np.testing.assert_array_equal(opened.deterministic_runout, make_record(BASELINE).values["runout"])
+
+
+def test_influence_is_a_share_of_the_realizations_that_did_not_fail(opened):
+    kept = [record.values["displaced"] for record in RECORDS if record.status is not Status.crashed]
+    np.testing.assert_array_equal(opened.influence_probability, np.mean(kept, axis=0))
+
+
+def test_status_flags_follow_cf(opened):
+    meanings = opened.status.attrs["flag_meanings"].split()
+    assert [meanings[flag] for flag in opened.status.values[:3]] == ["slid", "no_slide", "crashed"]
+    assert opened.status.attrs["flag_values"].dtype == opened.status.dtype
+    assert opened.reason.values[2] == "no mass"
+
+
+def test_checkpoints_are_labelled_by_realizations(opened):
+    np.testing.assert_array_equal(opened.checkpoint, [20, 45, 70])
+    assert opened.n.sel(checkpoint=45) == 43
+
+
+def test_attributes(opened):
+    assert opened.attrs["Conventions"] == "CF-1.11"
+    assert (opened.attrs["n_particles"], opened.attrs["toe_x"]) == (SIZES["particle"], 35.0)
+    assert opened.attrs["scene"] == "title = 'é'\n"
+
+
+def test_storage_is_chunked_compressed_and_extensible(path):
+    with netCDF4.Dataset(path) as file:
+        assert file.dimensions["realization"].isunlimited()
+        assert file["runout"].chunking() == [64, SIZES["time"]]
+        assert file["runout"].filters()["zlib"]
+        assert file["runout"].filters()["shuffle"]
+
+
+def test_a_write_that_fails_keeps_the_old_file(path, monkeypatch):
+    before = path.read_bytes()
+
+    def fail(*_arguments, **_keywords):
+        raise OSError("No space left on device")
+
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", fail)
+    with pytest.raises(OSError, match="No space"):
+        dataset.write(xr.Dataset(), path)
+    assert path.read_bytes() == before
+    assert list(path.parent.iterdir()) == [path]

@@ -1,0 +1,68 @@
+"""One campaign in a directory at a time, and no dead one in the way of a living."""
+
+import json
+import os
+import socket
+import subprocess
+import sys
+
+import pytest
+
+from campaign import lock as lock_module
+from campaign.exit_codes import RefusalError
+from campaign.lock import DirectoryLock
+
+
+@pytest.fixture(autouse=True)
+def impatience(monkeypatch):
+    monkeypatch.setattr(lock_module, "PATIENCE", 0.2)
+
+
+def holder(**changes):
+    known = {"host": socket.gethostname(), "pid": os.getpid(), "born": "0", "job": ""}
+    return json.dumps(known | changes)
+
+
+def test_a_second_campaign_is_refused_and_told_whom_it_met(tmp_path):
+    first = DirectoryLock(tmp_path)
+    assert first.acquire() == ""
+    with pytest.raises(RefusalError, match=f"process {os.getpid()} on"):
+        DirectoryLock(tmp_path).acquire()
+    first.release()
+    assert DirectoryLock(tmp_path).acquire() == ""
+
+
+def test_a_killed_holder_on_this_host_is_no_obstacle(tmp_path):
+    code = "import os; from pathlib import Path; from campaign.lock import DirectoryLock as D; "
+    code += f"D(Path({str(tmp_path)!r})).acquire(); os.kill(os.getpid(), 9)"
+    subprocess.run([sys.executable, "-c", code], check=False)
+    assert "takes over" in DirectoryLock(tmp_path).acquire()
+
+
+def test_a_zombie_is_dead(tmp_path):
+    code = (
+        f"from pathlib import Path; from campaign.lock import DirectoryLock as D; D(Path({str(tmp_path)!r})).acquire()"
+    )
+    process = subprocess.Popen([sys.executable, "-c", code])
+    os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+    assert not DirectoryLock(tmp_path).is_held()
+    assert "takes over" in DirectoryLock(tmp_path).acquire()
+    process.wait()
+
+
+def test_a_later_process_with_the_same_number_is_another(tmp_path):
+    (tmp_path / "lock").write_text(holder(born="1"))
+    assert "takes over" in DirectoryLock(tmp_path).acquire()
+
+
+def test_a_silent_holder_on_another_host_is_dead(tmp_path):
+    (tmp_path / "lock").write_text(holder(host="elsewhere"))
+    assert DirectoryLock(tmp_path).is_held()
+    os.utime(tmp_path / "lock", (0, 0))
+    assert not DirectoryLock(tmp_path).is_held()
+    assert "takes over" in DirectoryLock(tmp_path).acquire()
+
+
+def test_a_lock_whose_writer_died_before_signing_is_no_obstacle(tmp_path):
+    (tmp_path / "lock").touch()
+    assert "takes over" in DirectoryLock(tmp_path).acquire()

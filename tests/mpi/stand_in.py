@@ -1,0 +1,89 @@
+"""A model in the place of the solver: instant, deterministic in (seed, realization), and faulty on demand.
+
+Run under mpirun as a campaign: `python stand_in.py DIR REALIZATIONS`, with STAND_IN_* variables for faults.
+"""
+
+import os
+import resource
+import signal
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from campaign.record import QUANTITIES, Record, Status
+from campaign.scene import Scene, load_scene
+from campaign.seeds import BASELINE, Stream, generator
+
+SIZES = {"time": 11, "x": 7, "particle": 13}
+
+
+class Interrupted(Exception):  # noqa: N818 -- not an error
+    """As in `campaign.realization`."""
+
+
+@dataclass
+class Setup:
+    """As in `campaign.realization`."""
+
+    scene: Scene
+    n_particles: int = SIZES["particle"]
+    toe_x: float = 35.0
+    coordinates: dict[str, np.ndarray] = field(
+        default_factory=lambda: {
+            "time": np.linspace(0, 10, SIZES["time"]),
+            "x": np.arange(SIZES["x"]) + 0.5,
+            "particle_x": np.arange(SIZES["particle"]) * 0.5,
+            "particle_z": np.ones(SIZES["particle"]),
+        }
+    )
+
+
+def prepare(scene: Scene) -> Setup:
+    if "STAND_IN_RAISE_IN_PREPARE" in os.environ:
+        raise RuntimeError("the runner itself is broken")
+    return Setup(scene)
+
+
+def build_sampler(_setup: Setup, _directory: Path) -> None:
+    return None
+
+
+def simulate(setup: Setup, _sampler: None, realization: int, interrupt) -> Record:
+    begin, length = time.monotonic(), float(os.environ.get("STAND_IN_SECONDS", "0"))
+    while time.monotonic() - begin < length:
+        if interrupt():
+            raise Interrupted
+        time.sleep(0.005)
+    misbehave(realization)
+    return record(setup.scene.campaign.seed, realization)
+
+
+def misbehave(realization: int) -> None:
+    if str(realization) == os.environ.get("STAND_IN_RAISE"):
+        raise ZeroDivisionError("a particle has no mass")
+    if str(realization) == os.environ.get("STAND_IN_CRASH"):
+        os.kill(os.getpid(), signal.SIGSEGV)
+    if str(realization) == os.environ.get("STAND_IN_FULL_DISK"):
+        resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+
+
+def record(seed: int, realization: int) -> Record:
+    rng = np.random.default_rng(0) if realization == BASELINE else generator(seed, Stream.FIELD, realization)
+    values = {
+        name: rng.normal(10, 0.5, [SIZES[dim] for dim in quantity.dims]).astype(quantity.dtype)
+        for name, quantity in QUANTITIES.items()
+    }
+    values["displaced"] = rng.integers(0, 2, SIZES["particle"], "u1")
+    values["wall_time"] = time.process_time()
+    return Record(realization, Status.slid, "", values)
+
+
+if __name__ == "__main__":
+    from campaign.runner import run
+
+    directory, count, *overrides = sys.argv[1:]
+    wanted = [f"campaign.realizations={count}", *overrides]
+    sys.exit(run(lambda: load_scene("ma2023", wanted), Path(directory), sys.modules["__main__"]))

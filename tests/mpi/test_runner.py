@@ -1,0 +1,250 @@
+"""The dataset does not know how many ranks computed it, nor how often they were killed.
+
+Campaigns run under the environment's own mpirun, with a stand-in for the solver (`stand_in.py`).
+"""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from campaign.status import status
+
+MPIRUN = Path(sys.prefix) / "bin" / "mpirun"
+STAND_IN = Path(__file__).with_name("stand_in.py")
+
+pytestmark = pytest.mark.skipif(not MPIRUN.exists(), reason="needs the mpich extra")
+
+
+def start(directory, realizations=40, ranks=2, overrides=(), **faults):
+    environment = os.environ | {f"STAND_IN_{name.upper()}": str(value) for name, value in faults.items()}
+    command = [MPIRUN, "-n", str(ranks), sys.executable, STAND_IN, directory, str(realizations), *overrides]
+    return subprocess.Popen(
+        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True
+    )
+
+
+def campaign(directory, realizations=40, ranks=2, overrides=(), **faults):
+    process = start(directory, realizations, ranks, overrides, **faults)
+    output, _ = process.communicate(timeout=60)
+    return process.returncode, output
+
+
+def dataset(directory):
+    with xr.open_dataset(directory / "results.nc") as data:
+        return data.load()
+
+
+def assert_same(one, other):
+    """Bit for bit, but for what names itself after a clock, a rank or a host."""
+    assert one.variables.keys() == other.variables.keys()
+    for name in one.variables:
+        if not any(word in name for word in ("wall", "rank", "host")):
+            np.testing.assert_array_equal(one[name].values, other[name].values, err_msg=name, strict=True)
+
+
+def wait_for_records(directory, count):
+    deadline = time.monotonic() + 30
+    while len(list(directory.glob("records/realization-*.h5"))) < count:
+        assert time.monotonic() < deadline, "no records appear"
+        time.sleep(0.02)
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory):
+    directory = tmp_path_factory.mktemp("alone") / "out"
+    code, output = campaign(directory, ranks=1)
+    assert code == 0, output
+    return dataset(directory)
+
+
+@pytest.mark.parametrize("ranks", [2, 3])
+def test_the_number_of_ranks_leaves_no_trace(alone, tmp_path, ranks):
+    code, output = campaign(tmp_path / "out", ranks=ranks, seconds=0.01)
+    assert code == 0, output
+    assert_same(dataset(tmp_path / "out"), alone)
+
+
+def test_without_mpi_threads_rank_0_answers_between_its_steps(alone, tmp_path, monkeypatch):
+    monkeypatch.setenv("MPI4PY_RC_THREAD_LEVEL", "funneled")
+    code, output = campaign(tmp_path / "out", ranks=3, seconds=0.01)
+    assert code == 0, output
+    assert_same(dataset(tmp_path / "out"), alone)
+
+
+def test_a_kill_in_the_middle_leaves_no_trace(alone, tmp_path):
+    directory = tmp_path / "out"
+    process = start(directory, ranks=2, seconds=0.05)
+    wait_for_records(directory, 10)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.communicate()
+    assert not (directory / "results.nc").exists()
+    assert "killed; give the same command again" in status(directory)
+    code, output = campaign(directory, ranks=3)
+    assert code == 0, output
+    assert "stopped at the maximum of 40 realizations" in status(directory)
+    assert_same(dataset(directory), alone)
+
+
+def test_convergence_stops_every_number_of_ranks_at_the_same_realization(tmp_path):
+    loose = (
+        "campaign.minimum=20",
+        "campaign.block=10",
+        "campaign.variance_tolerance=0.6",
+        "campaign.mean_tolerance=0.05",
+    )
+    sets = []
+    for ranks in (1, 3):
+        directory = tmp_path / str(ranks)
+        code, output = campaign(directory, 300, ranks, loose, seconds=0.002)
+        assert code == 0, output
+        assert "converged at" in output
+        sets.append(dataset(directory))
+    assert sets[0].sizes["realization"] < 300
+    assert_same(*sets)
+
+
+def test_more_realizations_extend_a_campaign(alone, tmp_path):
+    assert campaign(tmp_path / "out", 10)[0] == 0
+    assert campaign(tmp_path / "out", 40)[0] == 0
+    assert_same(dataset(tmp_path / "out"), alone)
+
+
+def test_an_exception_in_a_realization_is_a_status(tmp_path):
+    code, output = campaign(tmp_path / "out", **{"raise": 7})
+    assert code == 0, output
+    result = dataset(tmp_path / "out")
+    meanings = result.status.attrs["flag_meanings"].split()
+    assert meanings[int(result.status[7])] == "crashed"
+    assert "a particle has no mass" in str(result.reason[7].values)
+    assert np.isnan(result.final_runout[7])
+    assert int(np.isfinite(result.final_runout).sum()) == 39
+
+
+def test_too_many_failures_have_their_own_exit_code(tmp_path):
+    code, output = campaign(tmp_path / "out", 4, **{"raise": 2})
+    assert code == 3
+    assert "1 of 4 realizations failed" in output
+    assert dataset(tmp_path / "out").sizes["realization"] == 4
+
+
+def test_an_exception_in_the_runner_ends_all_ranks_at_once(tmp_path):
+    begin = time.monotonic()
+    code, output = campaign(tmp_path / "out", raise_in_prepare=1)
+    assert code == 70
+    assert "the runner itself is broken" in output
+    assert time.monotonic() - begin < 15
+
+
+@pytest.mark.parametrize("number", [signal.SIGUSR1, signal.SIGTERM, signal.SIGINT])
+def test_a_signal_ends_a_campaign_so_that_it_can_go_on(alone, tmp_path, number):
+    directory = tmp_path / "out"
+    process = start(directory, ranks=2, seconds=0.05)
+    wait_for_records(directory, 6)
+    os.kill(process.pid, number)
+    output, _ = process.communicate(timeout=20)
+    assert process.returncode == 75, output
+    assert "same command again" in output
+    assert dataset(directory).sizes["realization"] < 40
+    assert campaign(directory, ranks=1)[0] == 0
+    assert_same(dataset(directory), alone)
+
+
+def test_a_realization_that_takes_the_process_down_twice_is_skipped(tmp_path):
+    directory = tmp_path / "out"
+    for _ in range(2):
+        assert campaign(directory, crash=3)[0] != 0
+    code, output = campaign(directory, crash=3)
+    assert code == 0, output
+    assert "Realization 3 is recorded as crashed" in output
+    assert "Segmentation fault" in str(dataset(directory).reason[3].values)
+
+
+def test_a_kill_from_outside_is_not_held_against_a_realization(alone, tmp_path):
+    directory = tmp_path / "out"
+    for _ in range(3):
+        process = start(directory, ranks=2, seconds=2)
+        wait_for_attempts(directory)
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+    assert campaign(directory)[0] == 0
+    assert_same(dataset(directory), alone)
+
+
+def wait_for_attempts(directory):
+    deadline = time.monotonic() + 30
+    while not any(path.read_text() for path in directory.glob("attempts/rank-*")):
+        assert time.monotonic() < deadline, "no realization is begun"
+        time.sleep(0.02)
+
+
+def test_a_full_disk_ends_in_a_sentence_and_costs_nothing_finished(alone, tmp_path):
+    directory = tmp_path / "out"
+    code, output = campaign(directory, full_disk=12)
+    assert code == 75
+    assert "cannot be kept" in output or "cannot be written" in output
+    assert "Traceback" not in output
+    assert campaign(directory)[0] == 0
+    assert_same(dataset(directory), alone)
+
+
+def test_an_unwritable_directory_is_refused(tmp_path):
+    (tmp_path / "file").write_text("in the way")
+    code, output = campaign(tmp_path / "file" / "out")
+    assert code == 2
+    assert "cannot be written" in output
+    assert "Traceback" not in output
+
+
+def test_a_directory_of_another_scene_is_refused_with_the_keys_that_differ(tmp_path):
+    assert campaign(tmp_path / "out", 4)[0] == 0
+    before = (tmp_path / "out" / "results.nc").read_bytes()
+    code, output = campaign(tmp_path / "out", 4, overrides=["numerics.cell=0.5 m", "campaign.seed=9"])
+    assert code == 2
+    assert re.search(r"campaign.seed is 9 here but 2023 .*numerics.cell is 0.5 here but 1.0", output)
+    assert (tmp_path / "out" / "results.nc").read_bytes() == before
+    assert not (tmp_path / "out" / "lock").exists()
+
+
+def test_a_realization_that_takes_too_long_is_a_status_even_if_it_is_the_baseline(tmp_path):
+    code, output = campaign(tmp_path / "out", 4, overrides=["campaign.realization_timeout=0.05 s"], seconds=0.3)
+    assert code == 3
+    assert "nothing to compare with" in output
+    result = dataset(tmp_path / "out")
+    assert (result.status == result.deterministic_status).all()
+    assert "realization_timeout" in str(result.reason[0].values)
+
+
+def test_nothing_is_begun_that_the_job_has_no_time_for(alone, tmp_path, monkeypatch):
+    """The last 20 s of a job are kept free, so that a campaign of 4 s is cut short by a job of 25 s."""
+    monkeypatch.setenv("SLURM_JOB_END_TIME", str(time.time() + 25))
+    code, output = campaign(tmp_path / "out", seconds=0.2)
+    assert code == 75, output
+    assert "the job's time is nearly over" in output
+    monkeypatch.delenv("SLURM_JOB_END_TIME")
+    assert campaign(tmp_path / "out")[0] == 0
+    assert_same(dataset(tmp_path / "out"), alone)
+
+
+@pytest.mark.parametrize("variable", ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"])
+def test_a_launcher_of_another_mpi_is_found_out(tmp_path, variable):
+    environment = {
+        name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMI_", "SLURM_"))
+    }
+    program = f"import os; from mpi4py import MPI; os.environ[{variable!r}] = '4'; import runpy, sys; "
+    program += (
+        f"sys.argv = ['x', {str(tmp_path / 'out')!r}, '4']; runpy.run_path({str(STAND_IN)!r}, run_name='__main__')"
+    )
+    result = subprocess.run(
+        [sys.executable, "-c", program], env=environment, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert result.returncode == 2, result.stderr
+    assert f"started 4 processes ({variable})" in result.stderr
+    assert not (tmp_path / "out").exists()

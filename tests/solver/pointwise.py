@@ -1,0 +1,119 @@
+"""The solver's scalar laws, applied to arrays of points, and an independent oracle for Mohr-Coulomb."""
+
+import itertools
+
+import numpy as np
+
+from solver._jit import kernel
+from solver.elastic import elastic_increment
+from solver.kinematics import rotate_stress
+from solver.mohr_coulomb import mohr_coulomb, update_stress
+from solver.softening import exp_decay, remaining_share, sine
+
+
+@kernel
+def _fill_mohr_coulomb(xx, yy, zz, xy, c_cos_phi, sin_phi, soil, result):
+    for p in range(xx.size):
+        result[:, p] = mohr_coulomb(xx[p], yy[p], zz[p], xy[p], c_cos_phi[p], sin_phi[p], soil)
+
+
+def return_stress(stress, cohesion, friction_angle, soil):
+    """Return stress (4, n) and plastic strain increment (n,) of trial stresses (4, n) in Pa, order xx, yy, zz, xy."""
+    n = stress.shape[1]
+    cohesion, phi = np.broadcast_to(cohesion, n), np.broadcast_to(friction_angle, n)
+    result = np.empty((5, n))
+    _fill_mohr_coulomb(*stress, cohesion * np.cos(phi), np.sin(phi), soil, result)
+    return result[:4], result[4]
+
+
+@kernel
+def follow(stress, strain, cohesion, friction_angle, soil, history):
+    """March ``stress`` (4,) along strain increments (n, 3), order xx, yy, xy; fill ``history`` (n, 5)."""
+    xx, yy, zz, xy = stress[0], stress[1], stress[2], stress[3]
+    plastic_strain = 0.0
+    for k in range(strain.shape[0]):
+        xx, yy, zz, xy, plastic_strain = update_stress(
+            xx, yy, zz, xy, strain[k, 0], strain[k, 1], strain[k, 2], plastic_strain, cohesion, friction_angle, soil
+        )
+        history[k] = xx, yy, zz, xy, plastic_strain
+
+
+@kernel
+def rotate(stress, rotation, turns):
+    """Return the in-plane stress (xx, yy, xy) after ``turns`` equal increments of rotation."""
+    xx, yy, xy = stress
+    for _ in range(turns):
+        xx, yy, xy = rotate_stress(xx, yy, xy, rotation)
+    return xx, yy, xy
+
+
+@kernel
+def evaluate_exp_decay(x, result):
+    for p in range(x.size):
+        result[p] = exp_decay(x[p])
+
+
+@kernel
+def evaluate_sine(x, result):
+    for p in range(x.size):
+        result[p] = sine(x[p])
+
+
+@kernel
+def share_left(plastic_strain, rate, is_linear, result):
+    for p in range(plastic_strain.size):
+        result[p] = remaining_share(plastic_strain[p], rate, is_linear)
+
+
+@kernel
+def stress_of(strain_xx, strain_yy, strain_xy, bulk, shear):
+    return elastic_increment(strain_xx, strain_yy, strain_xy, bulk, shear)
+
+
+def principal(stress):
+    """Return principal stresses (n, 3), smallest first, of stresses (4, n) by the eigenvalues of the full tensor."""
+    xx, yy, zz, xy = stress
+    tensor = np.zeros((xx.size, 3, 3))
+    tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 2, 2] = xx, yy, zz
+    tensor[:, 0, 1] = tensor[:, 1, 0] = xy
+    return np.linalg.eigvalsh(tensor)
+
+
+PLANES = list(itertools.permutations(range(3), 2))  # (i, j): f = s_i - s_j + (s_i + s_j) sin(phi) - 2 c cos(phi)
+
+
+def normals(sine_of_angle):
+    """Return the gradients (6, 3) of the six Mohr-Coulomb planes."""
+    planes = np.zeros((6, 3))
+    for k, (i, j) in enumerate(PLANES):
+        planes[k, i] = 1.0 + sine_of_angle
+        planes[k, j] = -(1.0 - sine_of_angle)
+    return planes
+
+
+def stiffness(soil):
+    """Return the elastic matrix (3, 3) between principal strains and stresses."""
+    lame = soil.bulk_modulus - 2.0 * soil.shear_modulus / 3.0
+    return lame * np.ones((3, 3)) + 2.0 * soil.shear_modulus * np.eye(3)
+
+
+def koiter_solutions(trial, c_cos_phi, sin_phi, soil):
+    """Return every stress that Koiter's conditions allow for one yielding principal trial stress (3,).
+
+    ``s = trial - D sum_k lambda_k b_k``, ``lambda_k >= 0``, ``f_k(s) <= 0``, ``lambda_k f_k(s) = 0`` over all six
+    planes: each set of one, two or three active planes is tried, without any ordering of the principal stresses.
+    """
+    gradients, flows = normals(sin_phi), normals(soil.sin_dilation) @ stiffness(soil)
+    excess = gradients @ trial - 2.0 * c_cos_phi
+    tolerance = 1e-9 * (np.abs(trial).max() + c_cos_phi)
+    solutions = []
+    for count in (1, 2, 3):
+        for active in map(list, itertools.combinations(range(6), count)):
+            matrix = gradients[active] @ flows[active].T
+            if np.linalg.cond(matrix) > 1e10:
+                continue
+            multipliers = np.linalg.solve(matrix, excess[active])
+            stress = trial - multipliers @ flows[active]
+            if (multipliers >= -1e-12).all() and (gradients @ stress - 2.0 * c_cos_phi <= tolerance).all():
+                solutions.append(stress)
+    return solutions

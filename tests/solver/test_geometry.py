@@ -1,0 +1,76 @@
+"""From a surface to particles."""
+
+import numpy as np
+import pytest
+
+from solver.geometry import Surface, fill_ground, slope_surface
+
+
+def surface(*points):
+    x, y = np.array(points, dtype=float).T
+    return Surface(x, y)
+
+
+PAPER = slope_surface(height=15.0, angle=np.radians(45.0), crest=20.0, plain=20.0, foundation=4.0)
+
+
+def test_the_papers_slope_has_the_papers_10090_particles():
+    assert fill_ground(PAPER, 0.5, 4, 2000.0).x.size == 10_090
+
+
+def test_slope_has_its_toe_at_the_foot():
+    assert PAPER.toe == pytest.approx((35.0, 4.0), abs=1e-12)
+    assert PAPER.width == pytest.approx(55.0)
+    assert PAPER.top == 19.0
+
+
+def test_toe_of_a_vertical_face_is_at_the_face():
+    assert surface((0, 9), (10, 9), (10, 4), (30, 4)).toe == (10.0, 4.0)
+
+
+def test_toe_is_where_the_surface_first_reaches_the_level_of_its_right_end():
+    """The surface may fall on below that level before it rises to it again."""
+    assert surface((0, 19), (20, 19), (37, 2), (50, 4)).toe == pytest.approx((35.0, 4.0))
+
+
+@pytest.mark.parametrize(
+    ("x", "height"), [(0.0, 19.0), (10.0, 19.0), (20.0, 19.0), (27.5, 11.5), (35.0, 4.0), (55.0, 4.0)]
+)
+def test_height_is_interpolated(x, height):
+    assert PAPER.height_at(np.array([x]))[0] == pytest.approx(height)
+
+
+def test_height_on_a_vertical_face_is_that_of_the_ground_to_its_right():
+    stairs = surface((0, 9), (10, 9), (10, 4), (30, 4))
+    np.testing.assert_allclose(stairs.height_at(np.array([10.0 - 1e-9, 10.0, 10.0 + 1e-9])), [9.0, 4.0, 4.0])
+
+
+def test_vertical_face_holds_exactly_its_area():
+    ground = fill_ground(surface((0, 9), (10, 9), (10, 4), (30, 4)), 0.5, 4, 2000.0)
+    assert ground.volume.sum() == pytest.approx(10 * 9 + 20 * 4, rel=1e-13)
+    assert ground.mass.sum() == pytest.approx(2000.0 * (10 * 9 + 20 * 4), rel=1e-13)
+
+
+@pytest.mark.parametrize("particles_per_cell", [1, 4, 9, 16])
+def test_particles_tile_level_ground(particles_per_cell):
+    ground = fill_ground(surface((0, 2), (3, 2)), 0.5, particles_per_cell, 2000.0)
+    spacing = 0.5 / np.sqrt(particles_per_cell)
+    assert ground.x.size == 6 * 4 * particles_per_cell
+    assert ground.x.min() == pytest.approx(spacing / 2)
+    assert ground.x.max() == pytest.approx(3.0 - spacing / 2)
+    assert ground.y.max() == pytest.approx(2.0 - spacing / 2)
+    assert len(set(zip(ground.x.round(9), ground.y.round(9), strict=True))) == ground.x.size
+
+
+def test_area_of_an_inclined_surface_converges():
+    """The staircase keeps lattice points strictly below the surface: at 45 degrees half a spacing squared a step."""
+    exact = 20.0 * 19.0 + 15.0 * (19.0 + 4.0) / 2.0 + 20.0 * 4.0
+    errors = [abs(fill_ground(PAPER, cell, 4, 2000.0).volume.sum() / exact - 1.0) for cell in (1.0, 0.5, 0.25)]
+    assert errors[1] < 0.005
+    np.testing.assert_allclose(np.log2(np.divide(errors[:-1], errors[1:])), 1.0, atol=0.05)
+
+
+def test_particles_come_sorted_by_cell():
+    ground = fill_ground(PAPER, 0.5, 4, 2000.0)
+    cell = np.floor(ground.y / 0.5) * 1000 + np.floor(ground.x / 0.5)
+    assert np.all(np.diff(cell) >= 0)

@@ -1,0 +1,206 @@
+"""Release, march, rest, and the guards."""
+
+import multiprocessing
+from concurrent.futures import ProcessPoolExecutor
+
+import numpy as np
+import pytest
+from small_slope import small_model, with_strength
+
+from solver.geometry import fill_ground
+from solver.gravity import in_situ_state
+from solver.march import March, Outcome, RestDetector, run
+from solver.model import STANDARD_GRAVITY
+from solver.particles import copy_particles
+from solver.step import GRAVITY_WORK
+from solver.timestep import even_steps, stable_step
+
+MODEL = small_model(residual=2e3)
+TIMES = np.linspace(0.0, 8.0, 81)
+
+
+@pytest.fixture(scope="module")
+def start():
+    return with_strength(in_situ_state(MODEL))
+
+
+@pytest.fixture(scope="module")
+def slide(start):
+    return run(MODEL, start, TIMES)
+
+
+def test_the_same_start_gives_the_same_bits(start, slide):
+    again = run(MODEL, start, TIMES)
+    for name in ("runout", "max_displacement", "kinetic_energy"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(slide, name))
+    for found, expected in zip(again.particles, slide.particles, strict=True):
+        np.testing.assert_array_equal(found, expected)
+    assert (again.outcome, again.settle_time, again.steps) == (slide.outcome, slide.settle_time, slide.steps)
+
+
+def test_the_start_is_not_modified(start, slide):
+    assert np.all(start.velocity_x == 0.0)
+    assert np.all(start.plastic_strain == 0.0)
+    assert not np.shares_memory(start.x, slide.particles.x)
+
+
+def test_a_failed_slope_slides_and_comes_to_rest(slide):
+    assert slide.outcome is Outcome.AT_REST
+    assert not slide.has_failed
+    assert 2.0 < slide.settle_time < 6.0
+    assert slide.max_displacement[-1] > 2.0
+    assert slide.runout[-1] > 1.0
+    assert abs(slide.energy_error) < 0.02
+
+
+def test_output_beyond_rest_holds_its_last_values(slide):
+    rest = int(np.searchsorted(TIMES, slide.settle_time - 1e-9))
+    for name in ("runout", "max_displacement", "kinetic_energy"):
+        values = getattr(slide, name)
+        assert np.isfinite(values).all()
+        assert np.all(values[rest:] == values[rest])
+
+
+def test_output_starts_from_nothing(slide):
+    assert slide.runout[0] == slide.max_displacement[0] == slide.kinetic_energy[0] == 0.0
+
+
+def test_a_strong_slope_stays(start):
+    """And its stillness is not taken for the rest after a slide."""
+    still = run(MODEL, with_strength(start, cohesion=1e6), np.linspace(0.0, 1.0, 11))
+    assert still.outcome is Outcome.END_TIME
+    assert still.max_displacement[-1] < 1e-4
+    assert np.isnan(still.settle_time)
+    assert np.all(still.particles.plastic_strain == 0.0)
+
+
+def test_mass_is_conserved_and_volume_nearly(slide, start):
+    np.testing.assert_array_equal(slide.particles.mass, start.mass)
+    assert slide.particles.volume.sum() == pytest.approx(start.volume.sum(), rel=0.05)
+
+
+def test_output_times_do_not_steer_the_slide(start):
+    """Output every 0.1 s or every 0.8 s: the same slide but for the rounding of steps to output times."""
+    fine, coarse = (run(MODEL, start, np.linspace(0.0, 1.6, n)) for n in (17, 3))
+    assert coarse.max_displacement[-1] == pytest.approx(fine.max_displacement[-1], rel=0.02)
+
+
+@pytest.mark.parametrize("stress_update", ["usl", "usf"])
+def test_every_scheme_slides_alike(stress_update, start, slide):
+    other = run(MODEL._replace(scheme=small_model(stress_update=stress_update).scheme), start, TIMES)
+    assert other.max_displacement[-1] == pytest.approx(slide.max_displacement[-1], rel=0.1)
+
+
+def test_what_the_watch_raises_ends_the_march(start):
+    seen = []
+
+    def stop_after_three(march):
+        seen.append(march.time)
+        if len(seen) == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run(MODEL, start, TIMES, stop_after_three)
+    np.testing.assert_allclose(seen, [0.0, 0.1, 0.2], atol=1e-12)
+
+
+def test_gravity_ramps_up_and_stays(start):
+    march = March(MODEL._replace(ramp_time=0.4), start)
+    seen = []
+    for time in (0.0, 0.1, 0.3, 0.7):
+        march.advance_to(time)
+        seen.append(march._gravity()[0])
+        assert march.time == time
+    np.testing.assert_allclose(seen, STANDARD_GRAVITY * np.array([0.0, 0.25, 0.75, 1.0]), rtol=1e-12)
+
+
+def test_a_ramp_does_the_work_of_its_mean_gravity():
+    """A body in free fall under ``g t / T`` has the velocity ``g T / 2`` at the end of the ramp."""
+    start = in_situ_state(MODEL)
+    for stress in (start.stress_xx, start.stress_yy, start.stress_zz, start.stress_xy):
+        stress[:] = 0.0
+    march = March(MODEL._replace(ramp_time=0.05), start)
+    march.grid.free_x[:] = march.grid.free_y[:] = 1.0
+    march.advance_to(0.05)
+    np.testing.assert_allclose(march.particles.velocity_y, -STANDARD_GRAVITY * 0.025, rtol=1e-7)
+    energy = 0.5 * start.mass.sum() * (STANDARD_GRAVITY * 0.025) ** 2
+    assert march.work.ledger[GRAVITY_WORK] == pytest.approx(energy, rel=0.15)  # first order: twelve steps
+
+
+def test_left_domain_is_told_and_its_output_is_nan(start):
+    flying = copy_particles(start)
+    flying.velocity_y[:] = 30.0
+    history = run(MODEL, flying, TIMES)
+    assert history.outcome is Outcome.LEFT_DOMAIN
+    assert history.has_failed
+    assert "left the grid" in history.reason
+    assert np.isnan(history.runout[1:]).all()
+    assert np.isnan(history.settle_time)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+@pytest.mark.parametrize(
+    "name", ["velocity_x", "velocity_y", "stress_xx", "stress_zz", "stress_xy", "cohesion", "friction_angle", "volume"]
+)
+def test_one_bad_number_ends_the_march_as_diverged(name, value, start):
+    if (name, value) == ("cohesion", np.inf):
+        pytest.skip("infinite cohesion is an elastic particle")
+    bad = copy_particles(start)
+    getattr(bad, name)[57] = value
+    history = run(MODEL, bad, np.linspace(0.0, 1.0, 11))
+    assert history.outcome is Outcome.DIVERGED
+    assert history.reason
+    assert np.isnan(history.max_displacement[-1])
+
+
+def test_an_explosion_is_not_mistaken_for_a_plain_that_is_too_short(start):
+    bad = copy_particles(start)
+    bad.stress_xx[57] = 1e12
+    assert run(MODEL, bad, np.linspace(0.0, 1.0, 11)).outcome is Outcome.DIVERGED
+
+
+def fails_from(place):
+    bad = with_strength(fill_ground(MODEL.surface, MODEL.cell_size, MODEL.particles_per_cell, MODEL.density))
+    bad.x[57] = place
+    return run(MODEL, bad, np.linspace(0.0, 1.0, 11)).has_failed
+
+
+def test_a_start_outside_the_grid_breaks_off_without_a_crash():
+    """In a process of its own, because writing beyond the nodes takes the whole process down."""
+    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+        assert all(pool.map(fails_from, [-50.0, 1e7, np.nan, np.inf]))
+
+
+def test_a_runaway_time_step_breaks_off(start):
+    assert run(MODEL._replace(courant=4.0), start, TIMES).has_failed
+
+
+def test_rest_needs_a_slide_and_then_both_signs_for_a_while():
+    detector = RestDetector()
+    story = [  # time, farthest, energy, is over
+        (0.0, 0.0, 0.0, False),
+        (0.1, 0.0, 0.0, False),  # quiet before the slide
+        (0.2, 0.5, 100.0, False),
+        (0.3, 2.0, 100.0, False),
+        (0.4, 2.001, 50.0, False),  # slow, but it still has energy
+        (0.5, 2.002, 0.05, False),  # quiet from here
+        (0.6, 2.003, 0.05, False),
+        (0.65, 2.003, 5.0, False),  # a jolt
+        (0.7, 2.003, 0.05, False),
+        (0.8, 2.003, 0.05, False),
+        (0.9, 2.003, 0.05, True),
+    ]
+    assert [detector.is_over(*state) for *state, _ in story] == [over for *_, over in story]
+
+
+def test_a_slide_below_a_metre_does_not_arm_the_rest():
+    detector = RestDetector()
+    states = [(0.0, 0.0, 0.0), (0.5, 0.9, 100.0), (1.0, 0.9, 1e-6), (2.0, 0.9, 1e-6), (9.0, 0.9, 1e-6)]
+    assert not any(detector.is_over(*state) for state in states)
+
+
+def test_steps_respect_the_courant_limit_and_divide_the_interval():
+    assert stable_step(0.5, 0.4, 90.0, 10.0) == pytest.approx(0.5 * 0.4 / 100.0)
+    assert even_steps(0.1, 0.02) == 5
+    assert even_steps(0.1, 0.0199) == 6
+    assert even_steps(1e-9, 1.0) == 1

@@ -1,0 +1,119 @@
+"""Conservation between particles and grid, and no shear where there is none."""
+
+import numpy as np
+import pytest
+
+from solver.basis import allocate_stencil, evaluate_stencil
+from solver.elastic import p_wave_speed
+from solver.geometry import Surface, fill_ground
+from solver.grid import allocate_grid
+from solver.model import make_soil
+from solver.particles import allocate_particles
+from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace, spread_all
+from solver.timestep import stable_step
+from solver.transfer import gradient, interpolate
+
+CELL = 0.5
+SOIL = make_soil(10e6, 0.3, 0.0, 10e3, 0.1, 0.0, False)
+HALF_LENGTHS = [1e-6, 0.25, 0.5]
+
+
+def random_particles(n=1000, seed=0):
+    """Return particles with random state, of which the last block is not full."""
+    rng = np.random.default_rng(seed)
+    particles = allocate_particles(rng.uniform(1.0, 5.0, n), rng.uniform(1.0, 3.0, n), 0.05, 2000.0)
+    for name in ("velocity_x", "velocity_y", "stress_xx", "stress_yy", "stress_zz", "stress_xy"):
+        getattr(particles, name)[:] = rng.normal(size=n)
+    particles.mass[:] = rng.uniform(50.0, 150.0, n)
+    return particles
+
+
+def free_grid(width, height, half_length):
+    """Return a grid without walls."""
+    grid = allocate_grid(width, height, CELL, half_length)
+    grid.free_x[:] = grid.free_y[:] = 1.0
+    return grid
+
+
+@pytest.mark.parametrize("half_length", HALF_LENGTHS)
+def test_mass_and_momentum_reach_the_grid_and_internal_forces_balance(half_length):
+    particles = random_particles()
+    grid = free_grid(6.0, 4.0, half_length)
+    spread_all(particles, grid, allocate_workspace(particles.x.size))
+    momentum = [np.sum(particles.mass * v) for v in (particles.velocity_x, particles.velocity_y)]
+    assert grid.mass.sum() == pytest.approx(particles.mass.sum(), rel=1e-13)
+    np.testing.assert_allclose(grid.momentum.sum(axis=0), momentum, rtol=1e-12)
+    np.testing.assert_allclose(grid.force.sum(axis=0), 0.0, atol=1e-11 * np.abs(grid.force).max())
+
+
+@pytest.mark.parametrize("half_length", HALF_LENGTHS)
+def test_internal_forces_of_a_symmetric_stress_exert_no_moment(half_length):
+    """``sum_i x_i (x) f_i = -sum_p V_p sigma_p`` by linear reproduction, which is symmetric."""
+    particles = random_particles()
+    grid = free_grid(6.0, 4.0, half_length)
+    spread_all(particles, grid, allocate_workspace(particles.x.size))
+    j, i = np.divmod(np.arange(grid.mass.size), grid.columns)
+    places = np.stack([grid.origin + i * CELL, grid.origin + j * CELL])
+    xx, yy, xy = (
+        -np.sum(particles.volume * s) for s in (particles.stress_xx, particles.stress_yy, particles.stress_xy)
+    )
+    np.testing.assert_allclose(places @ grid.force, [[xx, xy], [xy, yy]], rtol=0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("half_length", HALF_LENGTHS)
+def test_a_linear_velocity_field_is_read_back_exactly(half_length):
+    grid = free_grid(6.0, 4.0, half_length)
+    rng = np.random.default_rng(1)
+    x, y = rng.uniform(0.0, 6.0, 100), rng.uniform(0.0, 4.0, 100)
+    stencil = allocate_stencil(x.size)
+    evaluate_stencil(stencil, x, y, grid)
+    j, i = np.divmod(np.arange(grid.mass.size), grid.columns)
+    L = np.array([[0.3, -1.2], [0.7, 2.0]])
+    field = np.stack([grid.origin + i * CELL, grid.origin + j * CELL], axis=1) @ L.T
+    for p in range(x.size):
+        np.testing.assert_allclose(interpolate(field, stencil, p, grid.columns), L @ [x[p], y[p]], atol=1e-8)
+        np.testing.assert_allclose(gradient(field, stencil, p, grid.columns), L.ravel(), atol=1e-8)
+
+
+@pytest.mark.parametrize("stress_update", STRESS_UPDATES)
+@pytest.mark.parametrize("flip", [1.0, 0.9])
+def test_a_free_body_keeps_its_momentum_to_round_off(stress_update, flip):
+    particles = random_particles(seed=2)
+    particles.stress_xx[:] *= 1e3
+    grid, work = free_grid(6.0, 4.0, 0.25), allocate_workspace(particles.x.size)
+    before = [np.sum(particles.mass * v) for v in (particles.velocity_x, particles.velocity_y)]
+    size = np.sum(particles.mass * np.hypot(particles.velocity_x, particles.velocity_y))
+    scheme = Scheme(STRESS_UPDATES[stress_update], flip, 0.0)
+    assert advance(particles, grid, work, SOIL, scheme, 0.0, 0.0, 1e-4, 100) == 100
+    after = [np.sum(particles.mass * v) for v in (particles.velocity_x, particles.velocity_y)]
+    np.testing.assert_allclose(after, before, rtol=0.0, atol=1e-12 * size)
+
+
+@pytest.mark.parametrize("stress_update", STRESS_UPDATES)
+def test_free_fall_is_exact(stress_update):
+    """Velocity ``-g t`` and, because a place moves with the velocity at the end of its step, ``g t (t + dt) / 2``."""
+    block = fill_ground(Surface(np.array([0.0, 1.0]), np.array([1.0, 1.0])), CELL, 4, 2000.0)
+    block.x[:] += 2.1
+    block.y[:] += 3.07
+    grid, work = free_grid(5.0, 5.0, 0.25), allocate_workspace(block.x.size)
+    height, dt, steps = block.y.copy(), 1e-3, 500
+    advance(block, grid, work, SOIL, Scheme(STRESS_UPDATES[stress_update], 1.0, 0.0), 9.81, 0.0, dt, steps)
+    t = steps * dt
+    np.testing.assert_allclose(block.velocity_y, -9.81 * t, rtol=1e-12)
+    np.testing.assert_allclose(block.velocity_x, 0.0, atol=1e-12)
+    np.testing.assert_allclose(height - block.y, 9.81 * t * (t + dt) / 2.0, rtol=1e-12)
+    np.testing.assert_allclose(block.stress_yy, 0.0, atol=1e-4)  # of 10 MPa: round-off of the strain
+    np.testing.assert_allclose(block.volume, CELL**2 / 4, rtol=1e-11)
+
+
+@pytest.mark.parametrize("stress_update", STRESS_UPDATES)
+@pytest.mark.parametrize("half_length", [0.25, 0.5])
+def test_a_column_under_its_own_weight_has_no_shear(stress_update, half_length):
+    """A wrong node order gives shear of the size of the weight (as CB-Geo's GIMP did)."""
+    column = fill_ground(Surface(np.array([0.0, 1.0]), np.array([6.0, 6.0])), CELL, 4, 2000.0)
+    grid, work = allocate_grid(1.0, 7.0, CELL, half_length), allocate_workspace(column.x.size)
+    dt = stable_step(0.3, CELL, p_wave_speed(SOIL.bulk_modulus, SOIL.shear_modulus, 2000.0), 0.0)
+    advance(column, grid, work, SOIL, Scheme(STRESS_UPDATES[stress_update], 1.0, 0.0), 9.81, 0.0, dt, 300)
+    assert np.abs(column.stress_yy).max() > 50e3
+    assert np.abs(column.stress_xy).max() < 1e-7 * np.abs(column.stress_yy).max()
+    assert np.ptp(column.stress_yy[np.isclose(column.x, 0.125)] - column.stress_yy[np.isclose(column.x, 0.875)]) < 1e-3
