@@ -14,7 +14,7 @@ from campaign.doubts import doubts
 from campaign.exit_codes import RefusalError
 from campaign.figures import distribution, ground, precision, slides
 from campaign.figures.section import Section, section_of
-from campaign.figures.style import Illustration, NotDrawableError, in_style, save
+from campaign.figures.style import Illustration, NotDrawableError, in_style
 from campaign.files import write_atomically
 from campaign.realization import Setup, build_sampler, prepare
 from campaign.results import Results, check_same, read_results
@@ -41,6 +41,14 @@ class Drawn(NamedTuple):
     image: str = ""
 
 
+class Plan(NamedTuple):
+    """A figure to come: the name of its file, its title on the page, and what draws it."""
+
+    name: str
+    title: str
+    draw: Callable[[], Illustration]
+
+
 class Replay(NamedTuple):
     """The slides simulated again for the figures."""
 
@@ -65,18 +73,17 @@ def write_report(directory: Path) -> Path:
     Raises
     ------
     RefusalError
-        When there are no results.
+        When there are no results, or the report cannot be written.
     """
     results = read_results(directory)
-    figures = directory / "figures"
-    figures.mkdir(exist_ok=True)
-    for outdated in figures.glob("*.png"):
-        outdated.unlink()
     replayed, remarks = _replay(results, directory)
-    with in_style():
-        drawn = [_draw(title, draw, figures) for title, draw in _illustrations(results, replayed).items()]
     page = directory / PAGE
-    write_atomically(page, render(results, drawn, remarks).encode())
+    try:
+        with in_style():
+            drawn = [_draw(plan, directory / "figures") for plan in _plans(results, replayed)]
+        write_atomically(page, render(results, drawn, remarks).encode())
+    except OSError as error:
+        raise RefusalError(f"The report cannot be written ({error}); make room in {directory}, or copy it.") from error
     return page
 
 
@@ -158,20 +165,18 @@ def _differences(results: Results, replayed: Replay) -> list[str]:
     ]
 
 
-def _illustrations(results: Results, replayed: Replay | None) -> dict[str, Callable[[], Illustration]]:
-    """Return what draws each figure, by its title."""
-    runouts = np.append(results.runouts, results.deterministic)
-    section = section_of(results.scene, runouts)
-    return {
-        "Run-out over time": lambda: distribution.curves(results),
-        "Distribution of the run-out": lambda: distribution.histogram(results),
-        "Probability of exceedance": lambda: distribution.exceedance(results),
-        "Convergence": lambda: precision.convergence(results),
-        "Where the ground moves": lambda: ground.influence(results, section),
-        "The deterministic slide": lambda: slides.configurations(section, _needed(replayed).deterministic),
-        "A typical field of strength": lambda: _strengths(section, _needed(replayed)),
-        "Shortest, median and longest slide": lambda: _outcomes(section, _needed(replayed)),
-    }
+def _plans(results: Results, replayed: Replay | None) -> list[Plan]:
+    section = section_of(results.scene, np.append(results.runouts, results.deterministic))
+    return [
+        Plan("curves", "Run-out over time", lambda: distribution.curves(results)),
+        Plan("histogram", "Distribution of the run-out", lambda: distribution.histogram(results)),
+        Plan("exceedance", "Probability of exceedance", lambda: distribution.exceedance(results)),
+        Plan("convergence", "Convergence", lambda: precision.convergence(results)),
+        Plan("influence", "Where the ground moves", lambda: ground.influence(results, section)),
+        Plan("configurations", "The deterministic slide", lambda: _configurations(section, _needed(replayed))),
+        Plan("strengths", "A typical field of strength", lambda: _strengths(section, _needed(replayed))),
+        Plan("outcomes", "Shortest, median and longest slide", lambda: _outcomes(section, _needed(replayed))),
+    ]
 
 
 def _needed(replayed: Replay | None) -> Replay:
@@ -186,21 +191,27 @@ def _ranked(replayed: Replay) -> dict[str, Slide]:
     return replayed.ranked
 
 
+def _configurations(section: Section, replayed: Replay) -> Illustration:
+    return slides.configurations(section, replayed.deterministic)
+
+
 def _strengths(section: Section, replayed: Replay) -> Illustration:
     return slides.strengths(section, replayed.setup, _ranked(replayed)["median"])
 
 
 def _outcomes(section: Section, replayed: Replay) -> Illustration:
-    distinct = {slide.realization: called for called, slide in _ranked(replayed).items()}
-    return slides.outcomes(
-        section, {called: replayed.ranked[called] for called in sorted(distinct.values(), key=RANKS.__getitem__)}
-    )
+    called = {slide.realization: rank for rank, slide in _ranked(replayed).items()}
+    return slides.outcomes(section, {rank: replayed.ranked[rank] for rank in RANKS if rank in called.values()})
 
 
-def _draw(title: str, draw: Callable[[], Illustration], directory: Path) -> Drawn:
+def _draw(plan: Plan, directory: Path) -> Drawn:
+    path = directory / f"{plan.name}.png"
     try:
-        illustration = draw()
+        illustration = plan.draw()
     except NotDrawableError as reason:
-        return Drawn(title, str(reason))
-    image = base64.b64encode(save(illustration, directory).read_bytes()).decode()
-    return Drawn(title, illustration.caption, illustration.alt, image)
+        path.unlink(missing_ok=True)
+        return Drawn(plan.title, str(reason))
+    directory.mkdir(exist_ok=True)
+    illustration.figure.savefig(path)
+    image = base64.b64encode(path.read_bytes()).decode()
+    return Drawn(plan.title, illustration.caption, illustration.alt, image)

@@ -31,7 +31,7 @@ def curves(results: Results) -> Illustration:
     settled = results.data["settle_time"].values[results.is_usable]
     rest = f" Half of them rest after {np.nanmedian(settled):.1f} s." if np.isfinite(settled).any() else ""
     caption = f"Run-out of {n} slides over time.{rest}{bands}"
-    return Illustration("curves", figure, caption, f"Run-out against time for {n} slides; all rise and level off.")
+    return Illustration(figure, caption, f"Run-out against time for {n} slides; all rise and level off.")
 
 
 def histogram(results: Results) -> Illustration:
@@ -59,7 +59,7 @@ def histogram(results: Results) -> Illustration:
         "by realization: a trend would betray realizations that are not independent."
     )
     alt = f"Histogram of {n} run-outs between {runouts.min():.2f} and {runouts.max():.2f} m, and their scatter plot."
-    return Illustration("histogram", figure, caption, alt)
+    return Illustration(figure, caption, alt)
 
 
 def exceedance(results: Results) -> Illustration:
@@ -87,7 +87,7 @@ def exceedance(results: Results) -> Illustration:
         f"Nothing was seen beyond {runouts[-1]:.2f} m; that alone leaves a probability of up to {upper[-1]:.2g}."
     )
     alt = f"Falling curve of the exceedance probability from 1 at {runouts[0]:.2f} m to 1/{n} at {runouts[-1]:.2f} m."
-    return Illustration("exceedance", figure, caption, alt)
+    return Illustration(figure, caption, alt)
 
 
 def _count(results: Results, fewest: int) -> int:

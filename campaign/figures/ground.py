@@ -31,4 +31,4 @@ def influence(results: Results, section: Section) -> Illustration:
         "from the 5 % to the 95 % quantile, column by column. Dashed: the ground before the slide."
     )
     alt = f"Map of the probability of displacement, and the final surface with its spread, from {n} realizations."
-    return Illustration("influence", figure, caption, alt)
+    return Illustration(figure, caption, alt)

@@ -42,7 +42,7 @@ def convergence(results: Results) -> Illustration:
         f"the variance) about the last estimate; dots: where the rule looked. {stopped}"
     )
     alt = f"Two curves with bands that narrow as the number of realizations grows to {results.realizations}."
-    return Illustration("convergence", figure, caption, alt)
+    return Illustration(figure, caption, alt)
 
 
 def _within(name: str, tolerance: float) -> Sample:

@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
+from matplotlib.ticker import MaxNLocator
 
 from campaign.figures.style import BLACK, ORANGE
 from campaign.realization import Array, surface_of
@@ -74,6 +75,7 @@ class Section:
         """Set equal scales and draw the ground before the slide."""
         axes.plot(self.surface.x, self.surface.y, color=BLACK, linestyle=(0, (4, 2)), linewidth=0.9)
         axes.set(xlim=(0, self.right), ylim=(0, 1.12 * self.surface.top), aspect="equal", ylabel="elevation (m)")
+        axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
 
     def mark_runout(self, axes: Axes, runout: float) -> None:
         """Mark how far the front came beyond the toe, in m."""

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from campaign.figures.section import MOVED, Section
 from campaign.figures.style import WIDTH, Illustration, letter, new_figure, upper_limit
 from campaign.realization import Setup
+from campaign.record import FAILED
 from campaign.snapshots import Slide
 
 CAPTION_OUTLINE = "Dashed: the ground before the slide; orange: run-out from the initial toe."
@@ -31,8 +32,10 @@ def configurations(section: Section, slide: Slide) -> Illustration:
         f"The deterministic slide, with mean strengths everywhere, from the release of strength to its end after "
         f"{shots[-1].time:.1f} s, coloured by displacement. {CAPTION_OUTLINE}"
     )
+    if slide.record.status in FAILED:
+        caption += f" It failed then: {slide.record.reason}"
     alt = f"Cross-sections of the slope at {len(shots)} times; the final run-out is {shots[-1].runout:.2f} m."
-    return Illustration("configurations", figure, caption, alt)
+    return Illustration(figure, caption, alt)
 
 
 def strengths(section: Section, setup: Setup, slide: Slide) -> Illustration:
@@ -53,7 +56,7 @@ def strengths(section: Section, setup: Setup, slide: Slide) -> Illustration:
         f"{correlation:.2f}; asked, over all realizations, was {asked:g}."
     )
     alt = f"Two maps of the slope: cohesion and friction angle of realization {k}, in layers longer than high."
-    return Illustration("strengths", figure, caption, alt)
+    return Illustration(figure, caption, alt)
 
 
 def outcomes(section: Section, slides: Mapping[str, Slide]) -> Illustration:
@@ -73,7 +76,7 @@ def outcomes(section: Section, slides: Mapping[str, Slide]) -> Illustration:
         f"0.5 % of the particles lie beyond; the largest value is {strain.max():.2g}. {CAPTION_OUTLINE}"
     )
     alt = f"Cross-sections of deposits with their plastic strain: the {named} final run-out."
-    return Illustration("outcomes", figure, caption, alt)
+    return Illustration(figure, caption, alt)
 
 
 def _stack(section: Section, rows: int, colour_bars: int = 1) -> tuple[Figure, list[Axes]]:
@@ -87,7 +90,13 @@ def _stack(section: Section, rows: int, colour_bars: int = 1) -> tuple[Figure, l
 def _colour_bar(
     figure: Figure, panels: Sequence[Axes], particles: PolyCollection, label: str, extend: str = "max"
 ) -> None:
-    bar: dict[str, Any] = {"location": "bottom", "shrink": 0.6, "aspect": 40, "extend": extend}
+    bar: dict[str, Any] = {
+        "location": "bottom",
+        "shrink": 0.6,
+        "aspect": 40,
+        "extend": extend,
+        "pad": 0.08 / len(panels),
+    }
     figure.colorbar(particles, ax=list(panels), label=label, **bar)
 
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import matplotlib as mpl
@@ -41,8 +40,6 @@ class Illustration(NamedTuple):
 
     Attributes
     ----------
-    name : str
-        Of its file.
     figure : Figure
     caption : str
         What one sees, and how many realizations it rests on.
@@ -50,7 +47,6 @@ class Illustration(NamedTuple):
         The same for whoever cannot see it, in a sentence.
     """
 
-    name: str
     figure: Figure
     caption: str
     alt: str
@@ -68,13 +64,6 @@ def new_figure(height: float, rows: int = 1, **keywords: Any) -> tuple[Figure, l
     figure = Figure(figsize=(WIDTH, height), layout="compressed")
     panels = figure.subplots(rows, squeeze=False, **keywords)
     return figure, list(panels[:, 0])
-
-
-def save(illustration: Illustration, directory: Path) -> Path:
-    """Write a figure as PNG and return its path."""
-    path = directory / f"{illustration.name}.png"
-    illustration.figure.savefig(path)
-    return path
 
 
 def letter(panels: list[Axes], titles: list[str]) -> None:

@@ -1,0 +1,57 @@
+"""Speed of the whole step with plasticity, on one core: `python tests/benchmarks/test_step_speed.py` prints it."""
+
+import statistics
+import time
+
+import numpy as np
+import pytest
+
+from campaign.realization import prepare, strengthen
+from campaign.scene import load_scene
+from solver.march import March
+from solver.model import STANDARD_GRAVITY
+from solver.step import advance
+from solver.timestep import stable_step
+
+TARGET = 12e6  # particle-steps a second
+STEPS = 300
+RUNS = 7
+IN_FULL_SLIDE = 2.0  # s
+
+
+def particle_steps_per_second() -> list[float]:
+    """Return the speed in each of `RUNS` stretches of the printed scene (10,090 particles) in full slide."""
+    setup = prepare(load_scene("ma2023-printed"))
+    strength = setup.scene.soil
+    mean = np.full(setup.n_particles, strength.cohesion.mean), np.full(setup.n_particles, strength.friction_angle.mean)
+    march = March(setup.model, strengthen(setup, *mean))
+    march.advance_to(IN_FULL_SLIDE)
+    model = setup.model
+    dt = stable_step(model.courant, model.cell_size, model.wave_speed, 5.0)
+    speeds = []
+    for _ in range(RUNS):
+        begin = time.perf_counter()
+        taken = advance(
+            march.particles, march.grid, march.work, model.soil, model.scheme, STANDARD_GRAVITY, 0.0, dt, STEPS
+        )
+        speeds.append(taken * setup.n_particles / (time.perf_counter() - begin))
+    return speeds
+
+
+@pytest.mark.slow
+def test_the_whole_step_reaches_12_million_particle_steps_a_second():
+    """Median of seven stretches; the target holds for one core of a server of 2023, run with nothing beside it."""
+    assert statistics.median(particle_steps_per_second()) > TARGET
+
+
+def main() -> None:
+    """Print the speed and the machine."""
+    speeds = [speed / 1e6 for speed in particle_steps_per_second()]
+    print(
+        f"{statistics.median(speeds):.1f} million particle-steps/s "
+        f"(median of {RUNS}; {min(speeds):.1f} to {max(speeds):.1f}), double precision, one core"
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,129 @@
+"""Figures show what the numbers say, and refuse what there are too few numbers for."""
+
+import re
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+import pytest
+import xarray as xr
+from small_campaign import small_scene
+
+import campaign
+from campaign.figures import distribution, precision
+from campaign.figures.section import section_of
+from campaign.figures.style import NotDrawableError, in_style, new_figure, upper_limit
+from campaign.record import Status
+from campaign.results import Results
+
+SCENE = small_scene()
+
+
+def results(runouts, statuses=None):
+    """Return results with what the figures of run-outs need."""
+    n, time = len(runouts), np.linspace(0, 10, 21)
+    counted = np.arange(1, n + 1)
+    per_look = np.ones(n)
+    status = np.zeros(n, dtype=int) if statuses is None else np.array([int(each) for each in statuses])
+    data = xr.Dataset(
+        {
+            "final_runout": ("realization", np.array(runouts, dtype=float)),
+            "runout": (("realization", "time"), np.outer(runouts, np.minimum(time / 5, 1))),
+            "settle_time": ("realization", np.full(n, 6.0)),
+            "status": ("realization", status),
+            "deterministic_runout": ("time", 9.0 * np.minimum(time / 5, 1)),
+            "deterministic_final_runout": 9.0,
+            "deterministic_status": 0,
+            "mean": ("checkpoint", per_look),
+            "variance": ("checkpoint", per_look),
+        },
+        {"realization": np.arange(n), "time": time, "checkpoint": counted},
+        {"verdict": f"not converged after {n} realizations"},
+    )
+    return Results(data, SCENE)
+
+
+NORMAL = np.random.default_rng(5).normal(9.0, 0.5, 40)
+DRAWINGS = [distribution.curves, distribution.histogram, distribution.exceedance, precision.convergence]
+
+
+@pytest.mark.parametrize("draw", DRAWINGS)
+def test_a_figure_is_a_png_with_something_on_it(draw, tmp_path):
+    with in_style():
+        illustration = draw(results(NORMAL))
+        illustration.figure.savefig(tmp_path / "figure.png", dpi=30)
+    picture = matplotlib.image.imread(tmp_path / "figure.png")
+    assert np.ptp(picture[..., :3]) > 0.5
+    assert "40 slides" in illustration.caption
+
+
+@pytest.mark.parametrize("draw", DRAWINGS)
+def test_without_slides_a_sentence_says_so(draw):
+    with pytest.raises(NotDrawableError, match="there are none"):
+        draw(results([0.0, 0.0], [Status.no_slide] * 2))
+
+
+def test_axes_of_every_panel_have_units():
+    for draw in DRAWINGS:
+        for axes in draw(results(NORMAL)).figure.axes:
+            assert re.search(r"\((m|-|1/m)\)", axes.get_ylabel()), draw.__name__
+
+
+def test_exceedance_is_counted():
+    """Of the run-outs 1, 2, 3, 4 m all are longer than 0.8 m, half than 2 m, none than 4 m."""
+    (axes,) = distribution.exceedance(results([3.0, 1.0, 4.0, 2.0])).figure.axes
+    distance, share = axes.lines[0].get_data()
+    np.testing.assert_allclose(distance[1:5], [1, 2, 3, 4])
+    np.testing.assert_allclose(share[:4], [1.0, 0.75, 0.5, 0.25])
+    assert np.isnan(share[4])
+
+
+def test_failed_realizations_are_in_no_curve():
+    statuses = [Status.slid] * 30 + [Status.crashed] * 10
+    illustration = distribution.curves(results(np.r_[NORMAL[:30], np.full(10, np.nan)], statuses))
+    assert len(illustration.figure.axes[0].collections[0].get_segments()) == 30
+
+
+def test_no_quantiles_of_few():
+    labels = {
+        n: distribution.curves(results(NORMAL[:n])).figure.axes[0].get_legend_handles_labels()[1] for n in (19, 20)
+    }
+    assert ["5 to 95 %" in labels[n] for n in (19, 20)] == [False, True]
+
+
+def test_the_last_point_of_the_convergence_is_the_estimate():
+    mean, std = precision.convergence(results(NORMAL)).figure.axes
+    assert mean.lines[0].get_ydata()[-1] == pytest.approx(NORMAL.mean())
+    assert std.lines[0].get_ydata()[-1] == pytest.approx(NORMAL.std(ddof=1))
+
+
+def test_runout_is_marked_from_the_toe():
+    """The toe of the paper's slope is at 35 m, elevation 4 m."""
+    section = section_of(SCENE, [9.0])
+    _, (axes,) = new_figure(3.0)
+    section.mark_runout(axes, 9.0)
+    (line,) = axes.collections
+    assert [segment[0, 0] for segment in line.get_segments()] == [35.0, 44.0]
+    assert axes.texts[-1].get_text() == "9.00 m"
+    assert 44.0 < section.right < 75.0
+
+
+def test_a_colour_range_ignores_a_few_extremes():
+    assert upper_limit(np.r_[np.ones(1000), 100.0]) == 1.0
+    assert upper_limit(np.zeros(3)) == 1.0
+
+
+def test_ranks_are_by_runout_among_the_usable():
+    given = results([3.0, 9.0, 1.0, 2.0], [Status.slid, Status.diverged, Status.slid, Status.not_settled])
+    assert [given.ranked(share) for share in (0.0, 0.5, 1.0)] == [2, 3, 0]
+    with pytest.raises(ValueError, match="No run-out counts"):
+        results([0.0], [Status.no_slide]).ranked(0.5)
+
+
+def test_only_figures_import_matplotlib():
+    package = Path(campaign.__file__).parent
+    importers = {
+        path for path in package.rglob("*.py") if re.search(r"^\s*(import|from) matplotlib", path.read_text(), re.M)
+    }
+    assert {path.parent.name for path in importers} == {"figures"}
+    assert not any("pyplot" in path.read_text() for path in importers)
