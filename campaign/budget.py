@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from campaign.doubts import doubts
 from campaign.record import FAILED, USABLE, Status
 from campaign.results import Results, std_interval
 from campaign.statistics import (
@@ -89,6 +90,13 @@ def modelling_choices(results: Results) -> dict[str, str]:
         "Cross-correlation": f"{field.cross_correlation:g} between cohesion and friction angle "
         f"({field.cross_correlation_of} fields)",
     }
+
+
+def reasons_for_doubt(results: Results) -> list[str]:
+    """Return sentences on why the intervals may not hold."""
+    unsettled, n = results.by_status()[Status.not_settled], results.usable_runouts.size
+    censored = f"{unsettled} of the {n} run-outs are lower bounds: those slides were still moving at numerics.end_time."
+    return [*doubts(results.runouts), *([censored] if unsettled else [])]
 
 
 def outcomes(results: Results) -> list[Outcome]:

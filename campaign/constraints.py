@@ -38,7 +38,7 @@ PositiveNumber = Annotated[float, POSITIVE]
 PositiveCount = Annotated[int, must("be 1 or more", lambda count: count >= 1)]
 Fraction = Annotated[float, must("lie between 0 and 1", lambda value: 0.0 <= value <= 1.0)]
 OpenFraction = Annotated[
-    float, must("lie between 0 and 1, both excluded; 5 % is written 0.05", lambda value: 0.0 < value < 1.0)
+    float, must("lie between 0 and 1, both excluded; 95 % is written 0.95", lambda value: 0.0 < value < 1.0)
 ]
 
 # Strict validation would refuse the lists that TOML gives.

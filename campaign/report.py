@@ -10,7 +10,6 @@ import jinja2
 import numpy as np
 
 from campaign import budget
-from campaign.doubts import doubts
 from campaign.exit_codes import RefusalError
 from campaign.figures import distribution, ground, precision, slides
 from campaign.figures.section import Section, section_of
@@ -93,7 +92,7 @@ def render(results: Results, drawn: list[Drawn], remarks: list[str]) -> str:
         title=results.scene.title,
         answer=budget.answer(results),
         verdict=results.data.attrs["verdict"],
-        doubts=[*doubts(results.runouts), *remarks],
+        doubts=[*budget.reasons_for_doubt(results), *remarks],
         budget=budget.error_budget(results),
         choices=budget.modelling_choices(results),
         confidence=f"{100 * results.confidence:g} %",
@@ -150,18 +149,17 @@ def _see_again(results: Results, directory: Path) -> Replay:
 
 
 def _differences(results: Results, replayed: Replay) -> list[str]:
+    drawn = {slide.realization: slide for slide in (replayed.deterministic, *replayed.ranked.values())}
     different = [
-        str(slide.realization)
-        for slide in (replayed.deterministic, *replayed.ranked.values())
-        if not np.array_equal(
-            slide.record.values["final_runout"], results.final_runout(slide.realization), equal_nan=True
-        )
+        "the deterministic run" if realization == BASELINE else f"realization {realization}"
+        for realization, slide in drawn.items()
+        if not np.array_equal(slide.record.values["final_runout"], results.final_runout(realization), equal_nan=True)
     ]
     if not different:
         return []
     return [
-        f"The drawn realizations {', '.join(dict.fromkeys(different))} are not exactly the recorded ones: the solver, "
-        "a library or the kind of processor has changed since the campaign ran."
+        f"Drawn again, {', '.join(different)} did not come out exactly as recorded: the solver, a library or the kind of "
+        "processor has changed since the campaign ran."
     ]
 
 

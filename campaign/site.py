@@ -75,7 +75,7 @@ class Site:
     def conclude(self, setup: Setup, tally: Tally, stopped: str) -> ExitCode:
         """Write the results, say how the campaign ended, and return its exit code."""
         code, verdict = _end(tally, stopped)
-        say(summary(self.scene, tally, verdict, self.directory))
+        say(summary(self.scene, tally, verdict))
         try:
             self.store.pack()
             self._write_results(setup, tally, verdict)
@@ -84,7 +84,9 @@ class Site:
             say(f"The results cannot be written ({error}). All records are kept: make room and repeat the command.")
             return ExitCode.RESUMABLE
         if tally.prefix > 0:
+            say(f"Results: {self.directory / 'results.nc'} (opens with xarray)")
             _attempt_report(self.directory)
+            say(f"One realization again, with all particles: campaign replay {self.directory} K")
         if code is ExitCode.RESUMABLE:
             say("Give the same command again to continue.")
         return code

@@ -1,7 +1,5 @@
 """The last words of a campaign: the answer, how sure it is, and on what it rests."""
 
-from pathlib import Path
-
 import numpy as np
 
 from campaign.doubts import doubts
@@ -13,13 +11,10 @@ from campaign.statistics import failure_bounds, mean_interval, proportion_interv
 from campaign.tally import Tally
 
 
-def summary(scene: Scene, tally: Tally, verdict: str, directory: Path) -> str:
+def summary(scene: Scene, tally: Tally, verdict: str) -> str:
     """Return the campaign's result and its error budget as text."""
     lines = ["", f"{scene.title}: {verdict}", *_outcomes(tally), *_answer(tally), *_error_budget(scene, tally)]
-    files = (
-        f"Results: {directory / 'results.nc'} (opens with xarray). One realization again: campaign replay {directory} K"
-    )
-    return "\n".join([*lines, files])
+    return "\n".join(lines)
 
 
 def _outcomes(tally: Tally) -> list[str]:

@@ -3,6 +3,7 @@
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.ticker import MaxNLocator
 from scipy import stats
 
 from campaign.figures.style import BLACK, BLUE, GREY, ORANGE, Illustration, letter, need, new_figure
@@ -28,8 +29,8 @@ def curves(results: Results) -> Illustration:
     axes.set(xlim=(0, _last_motion(results)), ylim=(0, None), xlabel="time since release (s)", ylabel="run-out (m)")
     axes.legend(loc="upper left")
     bands = "" if n >= FEWEST_FOR_BANDS else f" No quantiles are drawn from fewer than {FEWEST_FOR_BANDS} slides."
-    settled = results.data["settle_time"].values[results.is_usable]
-    rest = f" Half of them rest after {np.nanmedian(settled):.1f} s." if np.isfinite(settled).any() else ""
+    half = float(np.median(np.nan_to_num(results.data["settle_time"].values[results.is_usable], nan=np.inf)))
+    rest = f" Half of them rest after {half:.1f} s." if np.isfinite(half) else ""
     caption = f"Run-out of {n} slides over time.{rest}{bands}"
     return Illustration(figure, caption, f"Run-out against time for {n} slides; all rise and level off.")
 
@@ -48,6 +49,7 @@ def histogram(results: Results) -> Illustration:
         label = f"deterministic {results.deterministic:.2f} m"
         panels[0].axvline(results.deterministic, color=BLACK, linestyle="--")
         panels[1].axhline(results.deterministic, color=BLACK, linestyle="--", label=label)
+    panels[1].xaxis.set_major_locator(MaxNLocator(integer=True))
     panels[1].set(xlabel="realization", ylabel="final run-out (m)")
     panels[1].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
     letter(panels, ["", ""])
@@ -118,7 +120,7 @@ def _last_motion(results: Results) -> float:
 
 def _density(axes: Axes, runouts: np.ndarray, mean: float, std: float) -> None:
     low, high = min(runouts.min(), mean - 3 * std), max(runouts.max(), mean + 3 * std)
-    x = np.linspace(low - 0.2 * std, high + 0.2 * std, 200)
+    x = np.linspace(max(0.0, low - 0.2 * std), high + 0.2 * std, 200)
     axes.hist(runouts, bins="auto", density=True, color=GREY, alpha=0.5, label="slides")
     axes.plot(x, stats.norm.pdf(x, mean, std), color=ORANGE, label="normal density")
     axes.set(xlabel="final run-out (m)", ylabel="probability density (1/m)", xlim=(x[0], x[-1]))

@@ -9,8 +9,11 @@ from campaign.figures.style import BLACK, BLUE, GREEN, Illustration, letter, nee
 from campaign.results import Results, std_interval
 from campaign.statistics import Interval, Sample, mean_interval
 
-FEWEST = 5
+FIRST = 5
 """The variance has an interval from here on."""
+
+FEWEST = 10
+"""Of fewer there is no history to draw."""
 
 POINTS = 80
 
@@ -52,8 +55,8 @@ def _within(name: str, tolerance: float) -> Sample:
 
 def _history(axes: Axes, results: Results, interval: Callable[[Sample, float], Interval]) -> None:
     runouts, is_usable = results.data["final_runout"].values, results.is_usable
-    fifth = int(np.flatnonzero(is_usable)[FEWEST - 1]) + 1
-    counts = np.unique(np.linspace(fifth, results.realizations, POINTS).round().astype(int))
+    first = int(np.flatnonzero(is_usable)[FIRST - 1]) + 1
+    counts = np.unique(np.linspace(first, results.realizations, POINTS).round().astype(int))
     rows = np.array([interval(runouts[:count][is_usable[:count]], results.confidence)[:3] for count in counts])
     label = f"{100 * results.confidence:g} % interval"
     axes.fill_between(counts, rows[:, 1], rows[:, 2], color=BLUE, alpha=0.25, linewidth=0, label=label)

@@ -1,0 +1,79 @@
+"""Data flows one way, and imports follow it."""
+
+import ast
+import sys
+from graphlib import TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+SOURCES = sorted([*ROOT.glob("solver/**/*.py"), *ROOT.glob("campaign/**/*.py")])
+
+
+def module_name(source: Path) -> str:
+    parts = source.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {module_name(source): source for source in SOURCES}
+
+
+def imports(source: Path) -> set[str]:
+    """Return what a file imports, wherever in it; `from campaign import x` counts as `campaign.x` if that is a module."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(source.read_text())):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names = {f"{node.module}.{alias.name}" for alias in node.names}
+            found |= (names & MODULES.keys()) or {node.module}
+    return found
+
+
+def top_levels(source: Path) -> set[str]:
+    return {name.split(".")[0] for name in imports(source)}
+
+
+def importers_of(package: str) -> set[str]:
+    return {name for name, source in MODULES.items() if package in top_levels(source)}
+
+
+def test_the_solver_knows_numpy_and_numba_alone():
+    allowed = {"solver", "numpy", "numba"} | set(sys.stdlib_module_names)
+    for name, source in MODULES.items():
+        if name.startswith("solver"):
+            assert top_levels(source) <= allowed, name
+
+
+def test_only_the_runner_knows_mpi():
+    assert importers_of("mpi4py") == {"campaign.runner"}
+
+
+def test_only_the_figures_know_matplotlib():
+    assert all(name.startswith("campaign.figures.") for name in importers_of("matplotlib"))
+
+
+def test_no_import_runs_in_a_circle():
+    graph = {name: imports(source) & MODULES.keys() for name, source in MODULES.items()}
+    TopologicalSorter(graph).prepare()
+
+
+@pytest.mark.parametrize(
+    ("lower", "higher"),
+    [
+        ("campaign.statistics", "campaign.convergence"),
+        ("campaign.convergence", "campaign.dataset"),
+        ("campaign.realization", "campaign.runner"),
+        ("campaign.runner", "campaign.cli"),
+    ],
+)
+def test_lower_floors_do_not_know_the_higher(lower: str, higher: str):
+    seen: set[str] = set()
+    ahead = [lower]
+    while ahead:
+        name = ahead.pop()
+        if name not in seen:
+            seen.add(name)
+            ahead.extend(imports(MODULES[name]) & MODULES.keys())
+    assert higher not in seen

@@ -1,0 +1,99 @@
+"""What verification problems need beyond the solver: other walls, body forces, and a march made of its own kernels."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from solver._jit import kernel
+from solver.basis import evaluate_stencil
+from solver.grid import allocate_grid
+from solver.model import make_soil
+from solver.step import (
+    BLOCK,
+    STRESS_UPDATES,
+    Scheme,
+    accelerate,
+    allocate_workspace,
+    deform,
+    solve_momentum,
+    spread_all,
+)
+from solver.transfer import spread_momentum
+
+MUSL = Scheme(STRESS_UPDATES["musl"], 1.0, 0.0)
+
+
+class Row(NamedTuple):
+    """One line of the verification table."""
+
+    phenomenon: str
+    expected: str
+    observed: str
+    error: str
+
+
+def elastic_soil(young_modulus, poisson_ratio):
+    """Return a soil whose particles (as allocated, unyielding) are elastic."""
+    return make_soil(young_modulus, poisson_ratio, 0.0, 0.0, 0.0, 0.0, False)
+
+
+def observed_orders(errors):
+    """Return the orders between successive errors of a ladder that halves the cell each time."""
+    return np.log2(np.divide(errors[:-1], errors[1:]))
+
+
+def node_indices(grid):
+    """Return column and row of every node, counted from the lower left corner of the walls."""
+    j, i = np.divmod(np.arange(grid.mass.size), grid.columns)
+    offset = round(grid.origin / grid.cell_size)
+    return i + offset, j + offset
+
+
+def grid_without_walls(width, height, cell_size, half_length=0.25):
+    """Return a grid whose nodes are all free."""
+    grid = allocate_grid(width, height, cell_size, half_length)
+    grid.free_x[:] = grid.free_y[:] = 1.0
+    return grid
+
+
+def grid_with_rollers(width, height, cell_size, half_length=0.25):
+    """Return a grid with a frictionless wall on each of its four sides."""
+    grid = grid_without_walls(width, height, cell_size, half_length)
+    i, j = node_indices(grid)
+    grid.free_x[(i <= 0) | (i >= round(width / cell_size))] = 0.0
+    grid.free_y[(j <= 0) | (j >= round(height / cell_size))] = 0.0
+    return grid
+
+
+def lattice(width, height, spacing):
+    """Return the centres of squares that tile a rectangle."""
+    x = (np.arange(round(width / spacing)) + 0.5) * spacing
+    y = (np.arange(round(height / spacing)) + 0.5) * spacing
+    return (axis.ravel() for axis in np.meshgrid(x, y))
+
+
+@kernel
+def add_body_force(particles, grid, work, acceleration_x, acceleration_y):
+    """Add ``S_ip m_p b_p`` to the nodal forces, ``b`` (n,) in m/s2."""
+    for start in range(0, particles.x.size, BLOCK):
+        x = particles.x[start : start + BLOCK]
+        evaluate_stencil(work.stencil, x, particles.y[start : start + BLOCK], grid)
+        for p in range(x.size):
+            m = particles.mass[start + p]
+            force_x, force_y = m * acceleration_x[start + p], m * acceleration_y[start + p]
+            spread_momentum(grid.force, force_x, force_y, work.stencil, p, grid.columns)
+
+
+def march(particles, grid, soil, scheme, dt, steps, body_force=None, observe=None):
+    """Take steps of ``dt`` s with ``body_force(t) -> (b_x, b_y)`` in m/s2; call ``observe(t)`` after each."""
+    work = allocate_workspace(particles.x.size)
+    spread_all(particles, grid, work)
+    for step in range(steps):
+        if body_force is not None:
+            add_body_force(particles, grid, work, *body_force(step * dt))
+        solve_momentum(grid, 0.0, scheme.damping, dt)
+        assert accelerate(particles, grid, work, scheme, 0.0, dt)
+        assert deform(particles, grid, work, soil, scheme, 0.0, dt)
+        if observe is not None:
+            observe((step + 1) * dt)
+    return work
