@@ -109,10 +109,12 @@ def verdict(record: Record, kept: Record | None) -> str:
     different = differing(record, kept)
     if not different:
         return f"{name} is the recorded one, bit for bit; its final run-out is {runout:.3f} m."
+    found = f"its final run-out is {runout!r} m, recorded {float(kept.values['final_runout'])!r} m"
+    if "final_runout" not in different:
+        found = f"its final run-out is still {runout:.3f} m, bit for bit"
     return (
-        f"{name} is NOT the recorded one: {', '.join(different)} differ; its final run-out is {runout!r} m, recorded "
-        f"{float(kept.values['final_runout'])!r} m. The solver, a library or the kind of processor has changed since: "
-        "compare the versions in manifest.json."
+        f"{name} is NOT the recorded one in {', '.join(different)}; {found}. The solver, a library or the kind of "
+        "processor has changed since: compare the versions in manifest.json."
     )
 
 

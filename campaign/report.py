@@ -158,8 +158,8 @@ def _differences(results: Results, replayed: Replay) -> list[str]:
     if not different:
         return []
     return [
-        f"Drawn again, {', '.join(different)} did not come out exactly as recorded: the solver, a library or the kind of "
-        "processor has changed since the campaign ran."
+        f"Drawn again, {', '.join(different)} did not come out exactly as recorded: the solver, a library or the "
+        "kind of processor has changed since the campaign ran."
     ]
 
 

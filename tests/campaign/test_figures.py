@@ -63,6 +63,12 @@ def test_without_slides_a_sentence_says_so(draw):
         draw(results([0.0, 0.0], [Status.no_slide] * 2))
 
 
+@pytest.mark.parametrize("draw", [distribution.histogram, precision.convergence])
+def test_equal_runouts_have_no_distribution(draw):
+    with pytest.raises(NotDrawableError, match="All final run-outs are equal"):
+        draw(results([9.5] * 12))
+
+
 def test_axes_of_every_panel_have_units():
     for draw in DRAWINGS:
         for axes in draw(results(NORMAL)).figure.axes:

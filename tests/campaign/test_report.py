@@ -9,12 +9,13 @@ import pytest
 import xarray as xr
 from small_campaign import conclude, made_up, run, small_scene
 
-from campaign import report
+from campaign import budget, report
 from campaign.exit_codes import RefusalError
 from campaign.figures import style
 from campaign.realization import prepare
 from campaign.record import Status
 from campaign.report import write_report
+from campaign.results import Results, read_results
 from campaign.seeds import BASELINE
 
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -145,11 +146,6 @@ def test_some_failures_are_bounded(tmp_path, setup):
     assert "2 of the 11 run-outs are lower bounds" in page.text
 
 
-def test_equal_runouts_are_doubted(tmp_path, setup):
-    page = made_up_page(tmp_path, setup, [9.5] * 12)
-    assert "All 12 run-outs are equal" in page.text
-
-
 def test_convergence_is_told(tmp_path, setup):
     runouts = list(np.random.default_rng(1).normal(9.0, 0.5, 24))
     loose = ["campaign.mean_tolerance=0.5", "campaign.variance_tolerance=0.9"]
@@ -158,12 +154,12 @@ def test_convergence_is_told(tmp_path, setup):
     assert "did not come out exactly as recorded" in page.text
 
 
-def test_a_discretisation_error_is_used_where_it_is_known(tmp_path, campaign):
-    with xr.open_dataset(campaign / "results.nc") as data:
-        data.load().assign(discretisation_error=((), 0.375, {"units": "m"})).to_netcdf(tmp_path / "results.nc")
-    page = Page(write_report(tmp_path))
-    assert "0.38 m" in page.text
-    assert "not estimated" not in page.text
+def test_a_discretisation_error_is_used_where_it_is_known(campaign):
+    results = read_results(campaign)
+    assert "errors of the mesh and of the model are not among them" in budget.answer(results)
+    known = Results(results.data.assign(discretisation_error=((), 0.375, {"units": "m"})), results.scene)
+    assert "the mesh adds about 0.38 m" in budget.answer(known)
+    assert budget.Row("Discretisation", "mean run-out", "0.38 m", "", "") in budget.error_budget(known)
 
 
 def test_without_a_simulation_the_other_figures_are_drawn(campaign, monkeypatch):
