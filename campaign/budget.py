@@ -6,13 +6,14 @@ import numpy as np
 
 from campaign.doubts import doubts
 from campaign.record import FAILED, USABLE, Status
-from campaign.results import Results, std_interval
+from campaign.results import Results
 from campaign.statistics import (
     Interval,
     failure_bounds,
     mean_interval,
     proportion_interval,
     quantile_interval,
+    std_interval,
 )
 
 FAR = 0.95

@@ -4,7 +4,7 @@ import math
 import time
 from collections.abc import Callable
 
-from campaign.statistics import Interval, mean_interval, variance_interval
+from campaign.statistics import Interval, mean_interval, std_interval
 from campaign.tally import Tally
 
 PERIOD = 15.0
@@ -56,12 +56,9 @@ def mean_text(mean: Interval) -> str:
     return f"{mean.estimate:.2f} +- {(mean.upper - mean.lower) / 2:.2f} m"
 
 
-def std_text(variance: Interval) -> str:
-    """Return the standard deviation with its interval, which is the square root of the variance's."""
-    if not math.isfinite(variance.lower):
-        return "not enough yet"
-    lower, std, upper = (math.sqrt(v) for v in (variance.lower, variance.estimate, variance.upper))
-    return f"{std:.2f} m ({lower:.2f} to {upper:.2f})"
+def std_text(std: Interval) -> str:
+    """Return the standard deviation with its interval, "0.51 m (0.48 to 0.54)"."""
+    return f"{std.estimate:.2f} m ({std.lower:.2f} to {std.upper:.2f})" if std.is_known else "not enough yet"
 
 
 def duration(seconds: float) -> str:
@@ -77,8 +74,8 @@ def _estimates(tally: Tally) -> str:
     if len(runouts) < 2:
         return ""
     mean = mean_interval(runouts, tally.rule.confidence)
-    variance = variance_interval(runouts, tally.rule.confidence)
-    return f" | run-out {mean_text(mean)}, std {std_text(variance)}"
+    std = std_interval(runouts, tally.rule.confidence)
+    return f" | run-out {mean_text(mean)}, std {std_text(std)}"
 
 
 def _time_left(tally: Tally, rate: float) -> str:

@@ -1,6 +1,5 @@
 """A finished campaign as the report sees it: `results.nc` and the scene it answers."""
 
-import math
 import tempfile
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ from campaign.exit_codes import RefusalError
 from campaign.record import FAILED, USABLE, Status
 from campaign.scene import Scene, SceneError, load_scene
 from campaign.seeds import BASELINE
-from campaign.statistics import Interval, Sample, variance_interval
+from campaign.statistics import Sample
 
 NAME = "results.nc"
 
@@ -97,12 +96,6 @@ class Results:
         if order.size == 0:
             raise ValueError("No run-out counts, so none is the shortest, the median or the longest.")
         return int(self.data["realization"].values[order[round(share * (order.size - 1))]])
-
-
-def std_interval(values: Sample, confidence: float) -> Interval:
-    """Return the standard deviation with the interval whose bounds are the roots of the variance's."""
-    estimate, lower, upper, n = variance_interval(values, confidence)
-    return Interval(math.sqrt(estimate), math.sqrt(lower), math.sqrt(upper), n)
 
 
 def read_results(directory: Path) -> Results:

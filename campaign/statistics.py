@@ -140,6 +140,12 @@ def variance_interval(values: Sample, confidence: float) -> Interval:
     return Interval(variance, c * variance / ratio, c * variance * ratio, n)
 
 
+def std_interval(values: Sample, confidence: float) -> Interval:
+    """Return the standard deviation with the interval whose bounds are the roots of the variance's."""
+    estimate, lower, upper, n = variance_interval(values, confidence)
+    return Interval(math.sqrt(estimate), math.sqrt(lower), math.sqrt(upper), n)
+
+
 def proportion_interval(successes: int, n: int, confidence: float) -> Interval:
     """Proportion with Wilson's score interval, which stays inside [0, 1] and does not collapse at 0 or n successes.
 

@@ -7,7 +7,7 @@ from campaign.progress import mean_text, std_text
 from campaign.record import FAILED, Status
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
-from campaign.statistics import failure_bounds, mean_interval, proportion_interval, variance_interval
+from campaign.statistics import failure_bounds, mean_interval, proportion_interval, std_interval
 from campaign.tally import Tally
 
 
@@ -64,8 +64,8 @@ def _sampling(tally: Tally) -> str:
     if len(usable) < 2:
         return "not enough yet"
     confidence = tally.rule.confidence
-    mean, variance = mean_interval(usable, confidence), variance_interval(usable, confidence)
-    return f"mean {mean_text(mean)}, std {std_text(variance)}, from {len(usable)} usable run-outs"
+    mean, std = mean_interval(usable, confidence), std_interval(usable, confidence)
+    return f"mean {mean_text(mean)}, std {std_text(std)}, from {len(usable)} usable run-outs"
 
 
 def _choices(scene: Scene) -> str:

@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from campaign.figures.style import BLACK, BLUE, GREEN, Illustration, letter, need, new_figure
-from campaign.results import Results, std_interval
-from campaign.statistics import Interval, Sample, mean_interval
+from campaign.results import Results
+from campaign.statistics import Interval, Sample, mean_interval, std_interval
 
 FIRST = 5
 """The variance has an interval from here on."""

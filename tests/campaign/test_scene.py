@@ -213,7 +213,7 @@ def test_a_file_that_is_not_text_is_refused(tmp_path: Path) -> None:
         ("numerics.flip=1.01", "between 0 and 1"),
         ("numerics.end_time=0 s", "it must be greater than zero"),
         ("campaign.minimum=9", "it must be 10 or more"),
-        ("campaign.confidence=95", "95, but it must lie between 0 and 1, both excluded; 5 % is written 0.05."),
+        ("campaign.confidence=95", "95, but it must lie between 0 and 1, both excluded; 95 % is written 0.95."),
         ("campaign.seed=-1", "it must not be negative"),
         # pairs
         ("soil.cohesion.residual=21 kPa", "it must not exceed the mean peak cohesion, 20 kPa"),

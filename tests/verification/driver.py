@@ -20,7 +20,9 @@ from solver.step import (
 )
 from solver.transfer import spread_momentum
 
-MUSL = Scheme(STRESS_UPDATES["musl"], 1.0, 0.0)
+UGIMP, B_SPLINE, LINEAR = 0.25, 0.5, 1e-6  # half lengths in cells, at four particles a cell
+SCHEMES = {name: Scheme(number, 1.0, 0.0) for name, number in STRESS_UPDATES.items()}
+MUSL = SCHEMES["musl"]
 
 
 class Row(NamedTuple):
@@ -42,6 +44,12 @@ def observed_orders(errors):
     return np.log2(np.divide(errors[:-1], errors[1:]))
 
 
+def orders_row(phenomenon, expected, errors, finest):
+    """Return the line of a ladder of relative errors whose last was found at ``finest``."""
+    orders = ", ".join(f"{order:.2f}" for order in observed_orders(errors))
+    return Row(phenomenon, expected, f"order {orders}", f"{errors[-1]:.2%} at {finest}")
+
+
 def node_indices(grid):
     """Return column and row of every node, counted from the lower left corner of the walls."""
     j, i = np.divmod(np.arange(grid.mass.size), grid.columns)
@@ -49,14 +57,14 @@ def node_indices(grid):
     return i + offset, j + offset
 
 
-def grid_without_walls(width, height, cell_size, half_length=0.25):
+def grid_without_walls(width, height, cell_size, half_length=UGIMP):
     """Return a grid whose nodes are all free."""
     grid = allocate_grid(width, height, cell_size, half_length)
     grid.free_x[:] = grid.free_y[:] = 1.0
     return grid
 
 
-def grid_with_rollers(width, height, cell_size, half_length=0.25):
+def grid_with_rollers(width, height, cell_size, half_length=UGIMP):
     """Return a grid with a frictionless wall on each of its four sides."""
     grid = grid_without_walls(width, height, cell_size, half_length)
     i, j = node_indices(grid)
@@ -84,16 +92,13 @@ def add_body_force(particles, grid, work, acceleration_x, acceleration_y):
             spread_momentum(grid.force, force_x, force_y, work.stencil, p, grid.columns)
 
 
-def march(particles, grid, soil, scheme, dt, steps, body_force=None, observe=None):
-    """Take steps of ``dt`` s with ``body_force(t) -> (b_x, b_y)`` in m/s2; call ``observe(t)`` after each."""
+def march(particles, grid, soil, scheme, dt, steps, body_force, observe):
+    """Take steps of ``dt`` s under ``body_force(t) -> (b_x, b_y)`` in m/s2; call ``observe(t)`` after each."""
     work = allocate_workspace(particles.x.size)
     spread_all(particles, grid, work)
     for step in range(steps):
-        if body_force is not None:
-            add_body_force(particles, grid, work, *body_force(step * dt))
+        add_body_force(particles, grid, work, *body_force(step * dt))
         solve_momentum(grid, 0.0, scheme.damping, dt)
         assert accelerate(particles, grid, work, scheme, 0.0, dt)
         assert deform(particles, grid, work, soil, scheme, 0.0, dt)
-        if observe is not None:
-            observe((step + 1) * dt)
-    return work
+        observe((step + 1) * dt)
