@@ -17,6 +17,7 @@ from solver import observables
 from solver.basis import half_length_in_cells
 from solver.geometry import Surface, fill_ground, slope_surface
 from solver.gravity import NotSettledError, in_situ_state
+from solver.grid import whole_cells
 from solver.march import FAILED, History, March, Outcome, run
 from solver.model import STANDARD_GRAVITY, Model, make_soil
 from solver.particles import Particles, copy_particles
@@ -132,7 +133,7 @@ def output_times(end_time: float, interval: float) -> Array:
 
 def column_edges(model: Model) -> Array:
     """Return the edges in m of the columns, one cell wide, of the deposit surface."""
-    return model.cell_size * np.arange(round(model.surface.width / model.cell_size) + 1.0)
+    return model.cell_size * np.arange(whole_cells(model.surface.width, model.cell_size) + 1.0)
 
 
 def build_sampler(setup: Setup, directory: Path) -> StrengthSampler:
@@ -161,7 +162,8 @@ def strengthen(setup: Setup, cohesion: Array, friction_angle: Array) -> Particle
 def draw_strengths(setup: Setup, sampler: StrengthSampler, realization: int) -> tuple[Array, Array]:
     """Return peak cohesion (Pa) and friction angle (rad) at the particles, each (n,)."""
     strengths = sampler.draw(setup.scene.campaign.seed, realization)
-    return strengths.at(setup.ground.x, setup.ground.y)
+    within = np.minimum(setup.ground.x, setup.model.surface.width)  # a wall may stand beyond it by part of a cell
+    return strengths.at(within, setup.ground.y)
 
 
 def simulate(

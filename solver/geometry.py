@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from solver.grid import whole_cells
 from solver.particles import Particles, allocate_particles
 
 
@@ -28,7 +29,10 @@ class Surface(NamedTuple):
         """Place ``(x, y)`` in m where the surface reaches the level of its right end for the first time."""
         level = self.y[-1]
         first = int(np.argmax(self.y <= level + 1e-9))
-        return float(self.x[first]), float(level)
+        if first == 0:
+            return float(self.x[0]), float(level)
+        share = (self.y[first - 1] - level) / (self.y[first - 1] - self.y[first])
+        return float(self.x[first - 1] + share * (self.x[first] - self.x[first - 1])), float(level)
 
     def height_at(self, x: np.ndarray) -> np.ndarray:
         """Return the elevation in m above each ``x``; on a vertical face that of the ground to its right."""
@@ -57,11 +61,12 @@ def slope_surface(height: float, angle: float, crest: float, plain: float, found
 def fill_ground(surface: Surface, cell_size: float, particles_per_cell: int, density: float) -> Particles:
     """Return particles on a regular lattice whose centres lie strictly below the surface, sorted by cell.
 
-    A particle stands for the lattice square around it, so an inclined surface is a staircase of half a spacing.
+    A particle stands for the lattice square around it, so an inclined surface is a staircase of half a spacing. The
+    ground reaches to the wall of the grid, which is the next node beyond the end of the surface.
     """
     per_side = round(np.sqrt(particles_per_cell))
     spacing = cell_size / per_side
-    columns = round(surface.width / spacing)
+    columns = whole_cells(surface.width, cell_size) * per_side
     rows = int(np.ceil(surface.top / spacing))
     x = (np.arange(columns) + 0.5) * spacing
     y = (np.arange(rows) + 0.5) * spacing

@@ -28,6 +28,11 @@ class Grid(NamedTuple):
     remapped: np.ndarray  # (nodes, 2) momentum (kg/s), then velocity (m/s), of the updated particles
 
 
+def whole_cells(length: float, cell_size: float) -> int:
+    """Return how many cells cover ``length`` (m)."""
+    return int(np.ceil(length / cell_size - 1e-9))
+
+
 def allocate_grid(width: float, height: float, cell_size: float, half_length: float) -> Grid:
     """Return a grid for material between ``0 <= x <= width`` and ``0 <= y <= height``.
 
@@ -40,8 +45,8 @@ def allocate_grid(width: float, height: float, cell_size: float, half_length: fl
     half_length : float
         Half length of a particle's domain over the cell size (see ``basis``).
     """
-    cells_x = int(np.ceil(width / cell_size - 1e-9))
-    cells_y = int(np.ceil(height / cell_size - 1e-9))
+    cells_x = whole_cells(width, cell_size)
+    cells_y = whole_cells(height, cell_size)
     columns = cells_x + 1 + 2 * PADDING
     rows = cells_y + 1 + 2 * PADDING
     i = np.arange(columns) - PADDING

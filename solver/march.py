@@ -102,11 +102,18 @@ class March:
         return None
 
     def _left_or_diverged(self) -> Outcome:
-        if np.isfinite(self.particles.x).all() and np.isfinite(self.particles.y).all():
-            self.reason = f"A particle left the grid at {self.time:.2f} s; widen the plain or refine the time step."
-            return Outcome.LEFT_DOMAIN
-        self.reason = f"A position is not finite at {self.time:.2f} s."
-        return Outcome.DIVERGED
+        if not (np.isfinite(self.particles.x).all() and np.isfinite(self.particles.y).all()):
+            self.reason = f"A position is not finite at {self.time:.2f} s."
+            return Outcome.DIVERGED
+        if not observables.fastest(self.particles) < self.model.wave_speed:
+            self.reason = (
+                f"A particle left the grid faster than the P-wave at {self.time:.2f} s; lower numerics.courant."
+            )
+            return Outcome.DIVERGED
+        if self.creates_energy:
+            return Outcome.DIVERGED
+        self.reason = f"A particle left the grid at {self.time:.2f} s; widen the ground."
+        return Outcome.LEFT_DOMAIN
 
     def _gravity(self) -> tuple[float, float]:
         """Return gravity now (m/s2) and its rate (m/s3)."""
@@ -116,15 +123,16 @@ class March:
         return rate * self.time, rate
 
     def energy_error(self) -> float:
-        """Return (kinetic energy + work of the stresses - work of gravity) over the work of gravity.
+        """Return (kinetic energy gained + work of the stresses - work of gravity) over the work of gravity.
 
         The work of the stresses is what they store plus what plastic flow dissipates, so this is what the transfers
         between particles and grid create (> 0) or destroy (< 0).
         """
         internal = self.work.ledger[INTERNAL_WORK]
         released = self.work.ledger[GRAVITY_WORK]
-        imbalance = observables.kinetic_energy(self.particles) + internal - released
-        return float(imbalance / released) if released != 0.0 else 0.0
+        gained = observables.kinetic_energy(self.particles) - observables.kinetic_energy(self.start)
+        imbalance = gained + internal - released
+        return float(imbalance / abs(released)) if released != 0.0 else 0.0
 
     @property
     def creates_energy(self) -> bool:

@@ -113,17 +113,18 @@ def mohr_coulomb(xx, yy, zz, xy, c_cos_phi, sin_phi, soil):
     s3 = min(low, zz)
     s2 = high + low + zz - s1 - s3
     n1, n2, n3 = return_mapping(s1, s2, s3, c_cos_phi, sin_phi, soil)
-    new_high = n2 if zz > high else n1
-    new_low = n2 if zz < low else n3
-    new_zz = n1 if zz > high else (n3 if zz < low else n2)
-    new_mean = 0.5 * (new_high + new_low)
-    scale = 0.5 * (new_high - new_low) / max(radius, _TINY)
+    drop_1, drop_2, drop_3 = s1 - n1, s2 - n2, s3 - n3
+    drop_high = drop_2 if zz > high else drop_1
+    drop_low = drop_2 if zz < low else drop_3
+    drop_zz = drop_1 if zz > high else (drop_3 if zz < low else drop_2)
+    drop_mean = 0.5 * (drop_high + drop_low)
+    shrink = 0.5 * (drop_high - drop_low) / max(radius, _TINY)
     return (
-        new_mean + half_difference * scale,
-        new_mean - half_difference * scale,
-        new_zz,
-        xy * scale,
-        equivalent_plastic_strain(s1 - n1, s2 - n2, s3 - n3, soil.shear_modulus),
+        xx - drop_mean - half_difference * shrink,
+        yy - drop_mean + half_difference * shrink,
+        zz - drop_zz,
+        xy - xy * shrink,
+        equivalent_plastic_strain(drop_1, drop_2, drop_3, soil.shear_modulus),
     )
 
 

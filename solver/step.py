@@ -255,6 +255,8 @@ def advance(particles, grid, work, soil, scheme, gravity, gravity_rate, dt, step
     Fewer than ``steps`` means that a particle left the grid in the next one. Gravity (m/s2, downward) grows by
     ``gravity_rate`` (m/s3).
     """
+    if not are_inside(particles.x, particles.y, grid):
+        return 0
     spread_all(particles, grid, work)
     for step in range(steps):
         g = gravity + gravity_rate * (step + 0.5) * dt

@@ -20,7 +20,7 @@ MODULES = {module_name(source): source for source in SOURCES}
 
 
 def imports(source: Path) -> set[str]:
-    """Return what a file imports, wherever in it; `from campaign import x` counts as `campaign.x` if that is a module."""
+    """Return what a file imports, wherever in it; `from campaign import x` is `campaign.x` if that is a module."""
     found: set[str] = set()
     for node in ast.walk(ast.parse(source.read_text())):
         if isinstance(node, ast.Import):

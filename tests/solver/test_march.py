@@ -159,6 +159,27 @@ def test_an_explosion_is_not_mistaken_for_a_plain_that_is_too_short(start):
     assert run(MODEL, bad, np.linspace(0.0, 1.0, 11)).outcome is Outcome.DIVERGED
 
 
+def moving_march(start, released):
+    """Return a march whose mass has moved 2 m and gained far more energy than gravity ``released`` (J/m)."""
+    march = March(MODEL, start)
+    march.particles.x[:] += 2.0
+    march.particles.velocity_x[:] = 5.0
+    march.work.ledger[GRAVITY_WORK] = released
+    return march
+
+
+@pytest.mark.parametrize("released", [1e3, -1e3])
+def test_energy_from_nowhere_is_noticed_also_when_the_mass_has_risen(released, start):
+    """An explosion can throw the ground upwards, where gravity has done negative work."""
+    assert moving_march(start, released).creates_energy
+
+
+def test_energy_that_gravity_gave_is_no_alarm(start):
+    march = moving_march(start, released=0.5 * start.mass.sum() * 25.0)
+    assert march.energy_error() == pytest.approx(0.0, abs=1e-12)
+    assert not march.creates_energy
+
+
 def fails_from(place):
     bad = with_strength(fill_ground(MODEL.surface, MODEL.cell_size, MODEL.particles_per_cell, MODEL.density))
     bad.x[57] = place

@@ -90,8 +90,8 @@ def rows():
         )
         for amplitude, basis, expected in (
             (1e-4, UGIMP, "order 2"),
-            (0.01, UGIMP, "order 1 to 2"),
-            (0.05, UGIMP, "a floor: domains overlap and part"),
+            (0.01, UGIMP, "order 2"),
+            (0.05, UGIMP, "order 2, then a floor"),
             (0.05, LINEAR, "divergence"),
         )
     ]
