@@ -123,16 +123,18 @@ class March:
         return rate * self.time, rate
 
     def energy_error(self) -> float:
-        """Return (kinetic energy gained + work of the stresses - work of gravity) over the work of gravity.
+        """Return (kinetic energy gained + work of the stresses - work of gravity) over the energy put in.
 
-        The work of the stresses is what they store plus what plastic flow dissipates, so this is what the transfers
-        between particles and grid create (> 0) or destroy (< 0).
+        What is put in is the work of gravity and the kinetic energy of the start. The work of the stresses is what they
+        store plus what plastic flow dissipates, so the error is what the transfers between particles and grid create
+        (> 0) or destroy (< 0).
         """
         internal = self.work.ledger[INTERNAL_WORK]
         released = self.work.ledger[GRAVITY_WORK]
-        gained = observables.kinetic_energy(self.particles) - observables.kinetic_energy(self.start)
-        imbalance = gained + internal - released
-        return float(imbalance / abs(released)) if released != 0.0 else 0.0
+        brought = observables.kinetic_energy(self.start)
+        imbalance = observables.kinetic_energy(self.particles) - brought + internal - released
+        put_in = abs(released) + brought
+        return float(imbalance / put_in) if put_in > 0.0 else 0.0
 
     @property
     def creates_energy(self) -> bool:
