@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Callable
+from datetime import timedelta
 
 from campaign.statistics import Interval, mean_interval, std_interval
 from campaign.tally import Tally
@@ -43,7 +44,7 @@ class Progress:
         """Return the state of the campaign with the time since its start and the time left."""
         elapsed = time.monotonic() - self._begin
         rate = (tally.done - self._before) / elapsed if elapsed > 0 else 0.0
-        return f"[{duration(elapsed):>8}] {state_line(tally)}{_time_left(tally, rate)}"
+        return f"[{clock(elapsed)}] {state_line(tally)}{_time_left(tally, rate)}"
 
 
 def state_line(tally: Tally) -> str:
@@ -66,6 +67,11 @@ def duration(seconds: float) -> str:
     if seconds < 100:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
+
+
+def clock(seconds: float) -> str:
+    """Return the time since the start as hours, minutes and seconds, "0:02:05"."""
+    return str(timedelta(seconds=int(seconds)))
 
 
 def _estimates(tally: Tally) -> str:
