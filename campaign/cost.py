@@ -2,7 +2,7 @@
 
 import math
 
-from campaign.progress import duration
+from campaign.running.progress import duration
 from campaign.scene import Geometry, Scene
 
 GRAVITY = 9.81

@@ -13,8 +13,8 @@ import xarray as xr
 
 from campaign.convergence import History
 from campaign.files import publish, temporary_name
-from campaign.model import Setup
 from campaign.record import FAILED, QUANTITIES, Record, Status
+from campaign.running.model import Setup
 
 CHUNK = 64
 """Realizations in a chunk; the library's own choice for an unlimited dimension is 1, thirty times slower to read."""

@@ -15,16 +15,7 @@ from campaign.scene import Scene
 PACKAGE = Path(__file__).parent
 SOLVER = PACKAGE.parent / "solver"
 
-REALIZATION_SOURCES = (
-    "seeds",
-    "correlation",
-    "samplers",
-    "cholesky",
-    "lognormal",
-    "reference_grid",
-    "random_field",
-    "realization",
-)
+REALIZATION_SOURCES = ("seeds", "fields/*", "random_field", "realization")
 """The modules of `campaign` that, with `solver`, decide what realization k is."""
 
 LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "netCDF4", "xarray", "mpi4py")
@@ -32,13 +23,13 @@ LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "netCDF4", "xarray",
 
 def realization_hash() -> str:
     """Return the SHA-256 of the sources that decide what realization k is."""
-    chosen = (PACKAGE / f"{name}.py" for name in REALIZATION_SOURCES)
-    return _hash([*SOLVER.glob("*.py"), *(path for path in chosen if path.exists())])
+    chosen = (path for name in REALIZATION_SOURCES for path in PACKAGE.glob(f"{name}.py"))
+    return _hash([*SOLVER.glob("*.py"), *chosen])
 
 
 def source_hashes() -> dict[str, str]:
     """Return the SHA-256 of each package."""
-    return {"solver_sha256": _hash(SOLVER.glob("*.py")), "campaign_sha256": _hash(PACKAGE.glob("*.py"))}
+    return {"solver_sha256": _hash(SOLVER.glob("*.py")), "campaign_sha256": _hash(PACKAGE.rglob("*.py"))}
 
 
 def versions() -> dict[str, str]:

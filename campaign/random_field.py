@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from campaign.cholesky import CholeskySampler
-from campaign.correlation import Array, Correlation, autocorrelation_distance
-from campaign.lognormal import Lognormal, gaussian_cross_correlation
-from campaign.reference_grid import Mask, ReferenceGrid
-from campaign.samplers import CirculantSampler, KroneckerSampler, Sampler, SamplerError
+from campaign.fields.cholesky import CholeskySampler
+from campaign.fields.correlation import Array, Correlation, autocorrelation_distance
+from campaign.fields.lognormal import Lognormal, gaussian_cross_correlation
+from campaign.fields.reference_grid import Mask, ReferenceGrid
+from campaign.fields.samplers import CirculantSampler, KroneckerSampler, Sampler, SamplerError
 from campaign.scene import Cohesion, FrictionAngle, RandomField
 from campaign.seeds import BASELINE, Stream, generator
 

@@ -7,10 +7,10 @@ import numpy as np
 
 from campaign import manifest
 from campaign.exit_codes import RefusalError
-from campaign.progress import say
 from campaign.realization import Array, Setup, build_sampler, draw_strengths, prepare, simulate, strengthen
 from campaign.record import DamagedRecordError, Record
 from campaign.results import check_same, kept_scene
+from campaign.running.progress import say
 from campaign.seeds import BASELINE
 from campaign.store import RecordStore
 from campaign.vtkhdf import ParticleFile

@@ -17,20 +17,20 @@ from typing import Any, NamedTuple
 
 from mpi4py import MPI
 
-from campaign import launcher
-from campaign.attempts import Attempts
-from campaign.dispatcher import Dispatcher
 from campaign.exit_codes import ExitCode, RefusalError
-from campaign.model import Model
-from campaign.progress import Progress
-from campaign.samplers import SamplerError
+from campaign.fields.samplers import SamplerError
+from campaign.running import launcher
+from campaign.running.attempts import Attempts
+from campaign.running.dispatcher import Dispatcher
+from campaign.running.model import Model
+from campaign.running.progress import Progress
+from campaign.running.signals import StopRequest, listening
+from campaign.running.site import Site
+from campaign.running.tally import Report
+from campaign.running.walltime import job_end
+from campaign.running.worker import LAST_CALL, Interrupt, Worker
 from campaign.scene import Scene, SceneError
-from campaign.signals import StopRequest, listening
-from campaign.site import Site
 from campaign.store import RecordStore
-from campaign.tally import Report
-from campaign.walltime import job_end
-from campaign.worker import LAST_CALL, Interrupt, Worker
 
 REPORT, ANSWER = 1, 2
 

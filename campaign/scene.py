@@ -8,7 +8,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict
 
-from campaign.constraints import (
+from campaign.scene_file.check import flatten, mistakes
+from campaign.scene_file.constraints import (
     NOT_NEGATIVE,
     POSITIVE,
     AcuteAngle,
@@ -23,9 +24,8 @@ from campaign.constraints import (
     RightAngle,
     must,
 )
-from campaign.scene_check import flatten, mistakes
-from campaign.scene_document import SceneError, builtin_scenes, read_document
-from campaign.units import Angle, Pressure, UnitWeight
+from campaign.scene_file.document import SceneError, builtin_scenes, read_document
+from campaign.scene_file.units import Angle, Pressure, UnitWeight
 
 __all__ = ["Scene", "SceneError", "builtin_scenes", "differences", "load_scene"]
 

@@ -6,11 +6,11 @@ from typing import Any
 
 from campaign import manifest
 from campaign.convergence import Rule
-from campaign.lock import DirectoryLock
-from campaign.progress import say, state_line
 from campaign.record import DamagedRecordError
+from campaign.running.lock import DirectoryLock
+from campaign.running.progress import say, state_line
+from campaign.running.tally import Tally, outcome_of
 from campaign.store import RecordStore
-from campaign.tally import Tally, outcome_of
 
 REFRESH = 5.0
 """Seconds between two looks of `--watch`."""

@@ -3,13 +3,13 @@
 import numpy as np
 
 from campaign import dataset, manifest, realization
-from campaign.model import sizes
 from campaign.provenance import attributes
 from campaign.record import FAILED, QUANTITIES, Record, Status, missing_values
+from campaign.running.model import sizes
+from campaign.running.tally import outcome_of, tally_of
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
 from campaign.store import RecordStore
-from campaign.tally import outcome_of, tally_of
 
 OVERRIDES = ["numerics.cell=2 m", "numerics.output_interval=0.5 s", "campaign.minimum=10", "campaign.block=1"]
 

@@ -6,9 +6,10 @@ import sys
 
 import pytest
 
-from campaign import cli, walltime
-from campaign.launcher import mismatch
-from campaign.signals import ECHO, StopRequest
+from campaign import cli
+from campaign.running import walltime
+from campaign.running.launcher import mismatch
+from campaign.running.signals import ECHO, StopRequest
 
 
 @pytest.fixture(autouse=True)
@@ -110,7 +111,7 @@ def test_a_lone_rank_of_many_is_noticed(size, environment, refused):
 
 def test_the_second_interrupt_stops_now_but_an_echo_of_the_first_does_not(monkeypatch):
     clock = [100.0]
-    monkeypatch.setattr("campaign.signals.time.monotonic", lambda: clock[0])
+    monkeypatch.setattr("campaign.running.signals.time.monotonic", lambda: clock[0])
     stop = StopRequest()
     stop.receive(2)
     stop.receive(2)

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from campaign.correlation import KERNELS, Correlation, autocorrelation_distance
+from campaign.fields.correlation import KERNELS, Correlation, autocorrelation_distance
 
 lags = st.floats(-100.0, 100.0)
 angles = st.floats(-3.0, 3.0)

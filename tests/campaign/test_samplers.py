@@ -5,10 +5,10 @@ import pickle
 import numpy as np
 import pytest
 
-from campaign import samplers
-from campaign.cholesky import CholeskySampler
-from campaign.correlation import KERNELS, Correlation
-from campaign.samplers import CirculantSampler, KroneckerSampler, SamplerError
+from campaign.fields import samplers
+from campaign.fields.cholesky import CholeskySampler
+from campaign.fields.correlation import KERNELS, Correlation
+from campaign.fields.samplers import CirculantSampler, KroneckerSampler, SamplerError
 
 ROWS, COLUMNS, SPACING = 5, 7, 0.5
 X, Y = SPACING * (np.arange(COLUMNS) + 0.5), SPACING * (np.arange(ROWS) + 0.5)
@@ -117,7 +117,7 @@ def kept_draw(directory, correlation=KEPT):
 def test_kept_factor_is_written_once_with_the_checksum_beside_it(tmp_path, monkeypatch):
     first = kept_draw(tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["field_factor.npy", "field_factor.npy.sha256"]
-    monkeypatch.setattr("campaign.cholesky.cholesky_factor", None)
+    monkeypatch.setattr("campaign.fields.cholesky.cholesky_factor", None)
     assert np.array_equal(kept_draw(tmp_path), first)
 
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from campaign.units import ANGLE, LENGTH, PRESSURE, TIME, UNIT_WEIGHT, Kind, si_value
+from campaign.scene_file.units import ANGLE, LENGTH, PRESSURE, TIME, UNIT_WEIGHT, Kind, si_value
 
 
 @pytest.mark.parametrize(

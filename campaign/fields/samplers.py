@@ -1,6 +1,6 @@
 """Standard Gaussian random fields with a prescribed correlation, on a grid, by two exact methods.
 
-Every sampler, that of `campaign.cholesky` included, is a fixed linear map A of white noise with A A^T = C, the
+Every sampler, that of `campaign.fields.cholesky` included, is a fixed linear map A of white noise with A A^T = C, the
 correlation matrix of the points, and keeps two parts apart: `correlate` applies A, `draw` feeds it. A draw is two
 independent fields. The products are summed in an order that depends on neither the number of threads nor the BLAS
 library.
@@ -13,7 +13,7 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy import fft, linalg
 
-from campaign.correlation import Array, Correlation
+from campaign.fields.correlation import Array, Correlation
 
 MEMORY_LIMIT = 4 * 10**9
 """Bytes that a sampler may use; as much as a Cholesky factor of 22,000 points."""

@@ -3,18 +3,18 @@
 from pathlib import Path
 
 from campaign import dataset, manifest
-from campaign.attempts import Attempts
 from campaign.exit_codes import ExitCode, RefusalError
-from campaign.lock import DirectoryLock
-from campaign.model import Setup, sizes
-from campaign.progress import say
 from campaign.provenance import attributes
 from campaign.record import Record, Status, missing_values
+from campaign.running.attempts import Attempts
+from campaign.running.lock import DirectoryLock
+from campaign.running.model import Setup, sizes
+from campaign.running.progress import say
+from campaign.running.summary import summary
+from campaign.running.tally import Tally, outcome_of, tally_of
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.store import RecordStore
-from campaign.summary import summary
-from campaign.tally import Tally, outcome_of, tally_of
 
 
 class Site:

@@ -6,9 +6,9 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from campaign.scene_document import Document
-from campaign.scene_errors import explain, wrong_value
-from campaign.scene_rules import broken_rules
+from campaign.scene_file.document import Document
+from campaign.scene_file.rules import broken_rules
+from campaign.scene_file.wording import explain, wrong_value
 
 Key = tuple[str, ...]
 

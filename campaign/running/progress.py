@@ -5,8 +5,8 @@ import time
 from collections.abc import Callable
 from datetime import timedelta
 
+from campaign.running.tally import Tally
 from campaign.statistics import Interval, mean_interval, std_interval
-from campaign.tally import Tally
 
 PERIOD = 15.0
 """Seconds between lines when nothing else calls for one."""

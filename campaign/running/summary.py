@@ -3,12 +3,12 @@
 import numpy as np
 
 from campaign.doubts import doubts
-from campaign.progress import mean_text, std_text
 from campaign.record import FAILED, Status
+from campaign.running.progress import mean_text, std_text
+from campaign.running.tally import Tally
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.statistics import failure_bounds, mean_interval, proportion_interval, std_interval
-from campaign.tally import Tally
 
 
 def summary(scene: Scene, tally: Tally, verdict: str) -> str:

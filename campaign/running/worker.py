@@ -6,12 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from campaign.attempts import Attempts
-from campaign.model import Model, sizes
 from campaign.record import Record, Status, missing_values
-from campaign.signals import StopRequest
+from campaign.running.attempts import Attempts
+from campaign.running.model import Model, sizes
+from campaign.running.signals import StopRequest
+from campaign.running.tally import Report, outcome_of
 from campaign.store import RecordStore
-from campaign.tally import Report, outcome_of
 
 LAST_CALL = 20.0
 """Seconds before the end of the job at which a realization is abandoned, to leave time for writing the results."""

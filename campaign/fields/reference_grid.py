@@ -7,7 +7,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from campaign.correlation import Array
+from campaign.fields.correlation import Array
 
 Mask = Callable[[Array, Array], NDArray[np.bool_]]
 

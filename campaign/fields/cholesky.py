@@ -13,9 +13,9 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy import linalg
 
-from campaign.correlation import Array, Correlation
+from campaign.fields.correlation import Array, Correlation
+from campaign.fields.samplers import SamplerError, refuse_large
 from campaign.files import publish, temporary_name, write_atomically
-from campaign.samplers import SamplerError, refuse_large
 
 FACTOR_FILE = "field_factor.npy"
 

@@ -7,7 +7,7 @@ from typing import Any, get_args
 from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
-from campaign.scene_document import Document, Location, shown
+from campaign.scene_file.document import Document, Location, shown
 
 TWO_COORDINATES = 'a point has two coordinates, for instance ["20 m", "4 m"]'
 EXPECTED = {

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field
 
-from campaign.units import Angle, Length, Pressure, Time
+from campaign.scene_file.units import Angle, Length, Pressure, Time
 
 
 def must(complaint: str, holds: Callable[[Any], bool]) -> AfterValidator:

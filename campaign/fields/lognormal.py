@@ -5,7 +5,7 @@ from math import log, log1p, sqrt
 
 import numpy as np
 
-from campaign.correlation import Array
+from campaign.fields.correlation import Array
 
 
 @dataclass(frozen=True)
