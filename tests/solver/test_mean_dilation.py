@@ -82,9 +82,11 @@ def test_nodal_forces_do_the_work_of_the_stresses(disturbed):
     assert work.ledger[INTERNAL_WORK] / dt == pytest.approx(power, rel=1e-6)
 
 
-@pytest.mark.parametrize("stress_update", STRESS_UPDATES)
+@pytest.mark.parametrize("stress_update", ["musl", "usf"])
 def test_a_cured_slide_keeps_its_energy_and_comes_to_rest(stress_update):
-    model = CURED._replace(scheme=CURED.scheme._replace(stress_update=STRESS_UPDATES[stress_update]))
+    """USL is left out: it destroys 4 % of the energy of this slide, cured or not."""
+    model = small_model(plain=15.0, stress_update=stress_update)
+    model = model._replace(scheme=model.scheme._replace(locking=LOCKING["cell-average"]))
     slide = run(model, with_strength(in_situ_state(model)), np.linspace(0.0, 10.0, 101))
-    assert slide.outcome in (Outcome.AT_REST, Outcome.LEFT_DOMAIN), slide.reason
-    assert abs(slide.energy_error) < 0.02
+    assert slide.outcome is Outcome.AT_REST
+    assert abs(slide.energy_error) < 0.005
