@@ -51,7 +51,7 @@ class Workspace(NamedTuple):
 
     stencil: Stencil
     increment: np.ndarray  # (4, BLOCK) displacement gradient increments L dt: xx, xy, yx, yy
-    increments: np.ndarray  # (4, n) the same of all particles, where cells are averaged
+    increments: np.ndarray  # (blocks, 4, BLOCK) the same of all particles, where cells are averaged
     moved_x: np.ndarray  # (n,) m, places at the end of the step
     moved_y: np.ndarray  # (n,) m
     ledger: np.ndarray  # (2,) J/m: work of the stresses, work of gravity
@@ -62,7 +62,7 @@ def allocate_workspace(n_particles: int) -> Workspace:
     return Workspace(
         stencil=allocate_stencil(BLOCK),
         increment=np.empty((4, BLOCK)),
-        increments=np.empty((4, n_particles)),
+        increments=np.empty((-(-n_particles // BLOCK), 4, BLOCK)),
         moved_x=np.empty(n_particles),
         moved_y=np.empty(n_particles),
         ledger=np.zeros(2),
@@ -303,7 +303,7 @@ def deform_cells(particles, grid, work, soil, scheme, gravity, dt):
     clear_cells(grid)
     for start in range(0, particles.x.size, BLOCK):
         block = take_block(particles, start, start + BLOCK)
-        increment = work.increments[:, start : start + BLOCK]
+        increment = work.increments[start // BLOCK]
         evaluate_stencil(work.stencil, block.x, block.y, grid)
         gather_increments(increment, nodal_velocity, work.stencil, block.x.size, grid.columns, dt)
         pool_dilation(block, increment, grid)
@@ -311,7 +311,7 @@ def deform_cells(particles, grid, work, soil, scheme, gravity, dt):
     for start in range(0, particles.x.size, BLOCK):
         stop = start + BLOCK
         block = take_block(particles, start, stop)
-        increment = work.increments[:, start:stop]
+        increment = work.increments[start // BLOCK]
         replace_dilation(block, increment, grid)
         work.ledger[INTERNAL_WORK] += update_material(block, increment, soil)
         moves = scheme.stress_update != USF
