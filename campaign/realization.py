@@ -21,7 +21,7 @@ from solver.grid import whole_cells
 from solver.march import FAILED, History, March, Outcome, run
 from solver.model import STANDARD_GRAVITY, Model, make_soil
 from solver.particles import Particles, copy_particles
-from solver.step import STRESS_UPDATES, Scheme
+from solver.step import LOCKING, STRESS_UPDATES, Scheme
 
 Array = NDArray[np.float64]
 
@@ -91,7 +91,7 @@ def model_of(scene: Scene) -> Model:
         cell_size=numerics.cell,
         particles_per_cell=numerics.particles_per_cell,
         half_length=half_length_in_cells(numerics.basis, numerics.particles_per_cell),
-        scheme=Scheme(STRESS_UPDATES[numerics.stress_update], numerics.flip, damping=0.0),
+        scheme=Scheme(STRESS_UPDATES[numerics.stress_update], numerics.flip, 0.0, LOCKING[numerics.locking]),
         courant=numerics.courant,
         ramp_time=numerics.ramp_time if numerics.gravity == "ramp" else 0.0,
     )

@@ -120,7 +120,7 @@ class Numerics(Section):
     stress_update: Literal["musl", "usl", "usf"] = "musl"
     courant: Annotated[float, must("be above 0 and at most 1.5, for instance 0.6", lambda c: 0.0 < c <= 1.5)] = 0.6
     flip: Fraction = 1.0
-    locking: Literal["none"] = "none"
+    locking: Literal["none", "cell-average"] = "cell-average"
     gravity: Literal["release", "ramp"] = "release"
     ramp_time: PositiveTime = 2.0
     end_time: PositiveTime

@@ -49,7 +49,7 @@ def in_situ_state(model: Model) -> Particles:
     lay_geostatic_stress(particles, model.surface, model.density * STANDARD_GRAVITY, model.poisson_ratio)
     grid = model.allocate_grid()
     work = allocate_workspace(particles.x.size)
-    scheme = Scheme(STRESS_UPDATES["musl"], 1.0, LOCAL_DAMPING)
+    scheme = Scheme(STRESS_UPDATES["musl"], 1.0, LOCAL_DAMPING, model.scheme.locking)
     dt = stable_step(min(model.courant, 0.5), model.cell_size, model.wave_speed, 0.0)
     unbalanced = np.inf
     steps = 0

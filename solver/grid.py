@@ -26,6 +26,9 @@ class Grid(NamedTuple):
     acceleration: np.ndarray  # (nodes, 2) m/s2
     velocity: np.ndarray  # (nodes, 2) m/s, at the end of the step
     remapped: np.ndarray  # (nodes, 2) momentum (kg/s), then velocity (m/s), of the updated particles
+    cell_volume: np.ndarray  # (nodes,) m2; a cell has the number of its lower left node, see ``mean_dilation``
+    cell_dilation: np.ndarray  # (nodes,) mean increment of the volume strain
+    cell_pressure: np.ndarray  # (nodes,) Pa, mean of (s_xx + s_yy) / 2
 
 
 def whole_cells(length: float, cell_size: float) -> int:
@@ -70,4 +73,7 @@ def allocate_grid(width: float, height: float, cell_size: float, half_length: fl
         acceleration=np.zeros((nodes, 2)),
         velocity=np.zeros((nodes, 2)),
         remapped=np.zeros((nodes, 2)),
+        cell_volume=np.zeros(nodes),
+        cell_dilation=np.zeros(nodes),
+        cell_pressure=np.zeros(nodes),
     )

@@ -11,7 +11,8 @@ The modified update-stress-last step (MUSL; Sulsky, Zhou and Schreyer 1995, Nair
     6  x_p <- x_p + S_ip v_i(2) dt                                                   move
 
 Update-stress-last (USL) leaves out 4; update-stress-first (USF) moves before 4. A step is two passes over the
-particles, one for 3 and 4, one for 5, 6 and 1 of the next step, in blocks small enough for the first-level cache.
+particles, one for 3 and 4, one for 5, 6 and 1 of the next step, in blocks small enough for the first-level cache. Cell
+averages against locking (``mean_dilation``) need all particles at two places, which cuts the second pass in three.
 """
 
 from typing import NamedTuple
@@ -23,6 +24,14 @@ from solver.basis import Stencil, allocate_stencil, evaluate_stencil
 from solver.boundary import constrain
 from solver.grid import SMALLEST_MASS
 from solver.kinematics import rotate_stress, volume_ratio
+from solver.mean_dilation import (
+    average,
+    clear_cells,
+    pool_dilation,
+    pool_pressure,
+    replace_dilation,
+    with_cell_pressure,
+)
 from solver.mohr_coulomb import update_stress
 from solver.particles import take_block
 from solver.transfer import gradient, interpolate, particle_to_grid, spread_mass, spread_momentum
@@ -33,12 +42,16 @@ INTERNAL_WORK, GRAVITY_WORK = 0, 1
 STRESS_UPDATES = {"musl": 0, "usl": 1, "usf": 2}
 USL, USF = STRESS_UPDATES["usl"], STRESS_UPDATES["usf"]
 
+LOCKING = {"none": 0, "cell-average": 1}  # the cure, not the disease: "none" locks
+CELL_AVERAGE = LOCKING["cell-average"]
+
 
 class Workspace(NamedTuple):
     """Scratch arrays of a march, and the energy ledger it keeps."""
 
     stencil: Stencil
     increment: np.ndarray  # (4, BLOCK) displacement gradient increments L dt: xx, xy, yx, yy
+    increments: np.ndarray  # (blocks, 4, BLOCK) the same of all particles, where cells are averaged
     moved_x: np.ndarray  # (n,) m, places at the end of the step
     moved_y: np.ndarray  # (n,) m
     ledger: np.ndarray  # (2,) J/m: work of the stresses, work of gravity
@@ -47,7 +60,12 @@ class Workspace(NamedTuple):
 def allocate_workspace(n_particles: int) -> Workspace:
     """Return scratch space for ``n_particles`` with an empty ledger."""
     return Workspace(
-        allocate_stencil(BLOCK), np.empty((4, BLOCK)), np.empty(n_particles), np.empty(n_particles), np.zeros(2)
+        stencil=allocate_stencil(BLOCK),
+        increment=np.empty((4, BLOCK)),
+        increments=np.empty((-(-n_particles // BLOCK), 4, BLOCK)),
+        moved_x=np.empty(n_particles),
+        moved_y=np.empty(n_particles),
+        ledger=np.zeros(2),
     )
 
 
@@ -57,6 +75,7 @@ class Scheme(NamedTuple):
     stress_update: int  # of STRESS_UPDATES
     flip_fraction: float  # 1 FLIP, 0 PIC
     damping: float  # local damping: this share of the unbalanced force opposes the motion (in-situ stage only)
+    locking: int = LOCKING["none"]  # of LOCKING
 
 
 @law
@@ -206,6 +225,35 @@ def spread_all(particles, grid, work):
 
 
 @kernel
+def pool_all_pressure(particles, grid):
+    """Collect the pressure of the cells from all particles."""
+    clear_cells(grid)
+    for start in range(0, particles.x.size, BLOCK):
+        pool_pressure(take_block(particles, start, start + BLOCK), grid)
+
+
+@kernel
+def spread_all_with_cell_pressure(particles, grid, work):
+    """Operation 1 for all particles, with the pooled pressure of the cells in the internal force."""
+    average(grid.cell_pressure, grid)
+    clear_state(grid)
+    for start in range(0, particles.x.size, BLOCK):
+        block = take_block(particles, start, start + BLOCK)
+        evaluate_stencil(work.stencil, block.x, block.y, grid)
+        particle_to_grid(with_cell_pressure(block, work.increment, grid), work.stencil, grid)
+
+
+@kernel
+def begin(particles, grid, work, scheme):
+    """Operation 1 of the first step."""
+    if scheme.locking == CELL_AVERAGE:
+        pool_all_pressure(particles, grid)
+        spread_all_with_cell_pressure(particles, grid, work)
+    else:
+        spread_all(particles, grid, work)
+
+
+@kernel
 def accelerate(particles, grid, work, scheme, gravity, dt):
     """Operations 3 and 4, the first pass over the particles; return whether all are inside."""
     move_first = scheme.stress_update == USF
@@ -230,8 +278,8 @@ def accelerate(particles, grid, work, scheme, gravity, dt):
 
 
 @kernel
-def deform(particles, grid, work, soil, scheme, gravity, dt):
-    """Operations 5 and 6, and 1 of the next step: the second pass; return whether all are inside."""
+def deform_each(particles, grid, work, soil, scheme, gravity, dt):
+    """Operations 5 and 6, and 1 of the next step, in one pass; return whether all are inside."""
     nodal_velocity = grid.velocity if scheme.stress_update == USL else grid.remapped
     clear_state(grid)
     for start in range(0, particles.x.size, BLOCK):
@@ -249,6 +297,40 @@ def deform(particles, grid, work, soil, scheme, gravity, dt):
 
 
 @kernel
+def deform_cells(particles, grid, work, soil, scheme, gravity, dt):
+    """Do the same with the dilation and the pressure of cells, in three passes; return whether all are inside."""
+    nodal_velocity = grid.velocity if scheme.stress_update == USL else grid.remapped
+    clear_cells(grid)
+    for start in range(0, particles.x.size, BLOCK):
+        block = take_block(particles, start, start + BLOCK)
+        increment = work.increments[start // BLOCK]
+        evaluate_stencil(work.stencil, block.x, block.y, grid)
+        gather_increments(increment, nodal_velocity, work.stencil, block.x.size, grid.columns, dt)
+        pool_dilation(block, increment, grid)
+    average(grid.cell_dilation, grid)
+    for start in range(0, particles.x.size, BLOCK):
+        stop = start + BLOCK
+        block = take_block(particles, start, stop)
+        increment = work.increments[start // BLOCK]
+        replace_dilation(block, increment, grid)
+        work.ledger[INTERNAL_WORK] += update_material(block, increment, soil)
+        moves = scheme.stress_update != USF
+        if moves and not move(block, work.moved_x[start:stop], work.moved_y[start:stop], grid, gravity, work.ledger):
+            return False
+        pool_pressure(block, grid)
+    spread_all_with_cell_pressure(particles, grid, work)
+    return True
+
+
+@kernel
+def deform(particles, grid, work, soil, scheme, gravity, dt):
+    """Operations 5 and 6, and 1 of the next step; return whether all are inside."""
+    if scheme.locking == CELL_AVERAGE:
+        return deform_cells(particles, grid, work, soil, scheme, gravity, dt)
+    return deform_each(particles, grid, work, soil, scheme, gravity, dt)
+
+
+@kernel
 def advance(particles, grid, work, soil, scheme, gravity, gravity_rate, dt, steps):
     """Take ``steps`` time steps of ``dt`` seconds, in place; return how many were taken.
 
@@ -257,7 +339,7 @@ def advance(particles, grid, work, soil, scheme, gravity, gravity_rate, dt, step
     """
     if not are_inside(particles.x, particles.y, grid):
         return 0
-    spread_all(particles, grid, work)
+    begin(particles, grid, work, scheme)
     for step in range(steps):
         g = gravity + gravity_rate * (step + 0.5) * dt
         solve_momentum(grid, g, scheme.damping, dt)

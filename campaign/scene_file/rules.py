@@ -87,6 +87,16 @@ def _cells_of_length(length: float, cell: float) -> str | None:
     return None
 
 
+@rule("numerics.locking", "numerics.basis")
+def _cell_average_of_wide_basis(locking: str, basis: str) -> str | None:
+    if locking == "cell-average" and basis == "bspline":
+        return (
+            'the domain of a "bspline" particle spans two cells, and averaged over both the ground is too weak; '
+            'use the basis "gimp"'
+        )
+    return None
+
+
 @rule("soil.cohesion.residual", "soil.cohesion.mean")
 def _residual_cohesion(residual: float, mean: float) -> str | None:
     if residual > mean:

@@ -256,6 +256,12 @@ def test_two_lognormal_fields_cannot_have_any_correlation(cov: float, lowest: fl
     assert any("can only have a cross-correlation between" in text for text in _any_complaints(*same, mean, just_below))
 
 
+def test_the_cell_average_needs_a_narrow_basis() -> None:
+    """Limit loads with both are 5 % and more too low (verification/test_limit_loads)."""
+    text = complaint("numerics.basis=bspline", "numerics.locking=cell-average")
+    assert 'use the basis "gimp"' in text
+
+
 def test_gaussian_fields_can_have_any_correlation() -> None:
     strong = ("field.cross_correlation=-0.95", "soil.cohesion.cov=0.3", "soil.friction_angle.cov=0.3")
     load_scene("ma2023", strong)

@@ -1,0 +1,138 @@
+"""Loading so slowly that inertia does not matter: a rigid footing, and strength reduced until the ground fails.
+
+Stresses settle under local damping (Cundall). The soil is perfectly plastic and so stiff that the geometry at collapse
+is still the initial one; a limit load depends on neither the stiffness nor the path.
+"""
+
+import math
+
+import numpy as np
+
+from solver import observables
+from solver._jit import kernel
+from solver.geometry import Surface, fill_ground
+from solver.gravity import LOCAL_DAMPING, in_situ_state, unbalanced_share
+from solver.grid import PADDING, SMALLEST_MASS
+from solver.model import STANDARD_GRAVITY, Model, make_soil
+from solver.particles import copy_particles
+from solver.step import (
+    LOCKING,
+    STRESS_UPDATES,
+    Scheme,
+    accelerate,
+    advance,
+    allocate_workspace,
+    begin,
+    deform,
+    solve_momentum,
+)
+from solver.timestep import stable_step
+
+YOUNG_MODULUS, POISSON_RATIO = 1e9, 0.3
+COURANT = 0.5
+STEPS = 100  # between two looks
+AT_REST = 2e-4  # unbalanced force over weight
+MOST_LOOKS = 300
+STEP_OF_STRENGTH = 1.01
+
+
+def quasi_static_model(surface, cell_size, unit_weight, locking, young_modulus=YOUNG_MODULUS):
+    """Return a damped uGIMP model, four particles a cell, without softening."""
+    return Model(
+        surface=surface,
+        density=unit_weight / STANDARD_GRAVITY,
+        poisson_ratio=POISSON_RATIO,
+        soil=make_soil(young_modulus, POISSON_RATIO, 0.0, 0.0, 0.0, 0.0, False),
+        cell_size=cell_size,
+        particles_per_cell=4,
+        half_length=0.25,
+        scheme=Scheme(STRESS_UPDATES["musl"], 1.0, LOCAL_DAMPING, LOCKING[locking]),
+        courant=COURANT,
+        ramp_time=0.0,
+    )
+
+
+@kernel
+def prescribe(grid, footing, velocity, dt):
+    """Hold the ``footing`` nodes at ``velocity`` downward and still sideways; return the force in N/m it takes."""
+    force = 0.0
+    for i in footing:
+        if grid.mass[i] > SMALLEST_MASS:
+            force += grid.force[i, 1]
+            grid.acceleration[i, 0] = -grid.momentum[i, 0] / grid.mass[i] / dt
+            grid.acceleration[i, 1] = (-velocity - grid.momentum[i, 1] / grid.mass[i]) / dt
+        grid.velocity[i, 0] = 0.0
+        grid.velocity[i, 1] = -velocity
+    return force
+
+
+@kernel
+def push(particles, grid, work, soil, scheme, footing, velocity, dt, steps):
+    """Push a rough rigid footing into weightless ground; return the mean force in N/m."""
+    force = 0.0
+    begin(particles, grid, work, scheme)
+    for _ in range(steps):
+        solve_momentum(grid, 0.0, scheme.damping, dt)
+        force += prescribe(grid, footing, velocity, dt)
+        accelerate(particles, grid, work, scheme, 0.0, dt)
+        grid.remapped[footing] = grid.velocity[footing]
+        deform(particles, grid, work, soil, scheme, 0.0, dt)
+    return force / steps
+
+
+def bearing_pressure(cells, locking, settlement=0.003, samples=40, steps=500):
+    """Return pressure over cohesion against settlement, for half a footing ``cells`` cells wide on Tresca ground.
+
+    The settlement is in widths, with ``E = 10^4 c``. The velocity of the ground falls to zero in the cell beside the
+    last footing node, so the width of the footing ends in the middle of that cell. Ended at its last node the pressures
+    are ``1 + 1 / (2 cells)`` times larger and tend to the same limit.
+    """
+    cohesion, half_width, depth = 1e4, 1.0, 2.0
+    cell = half_width / cells
+    ground = Surface(np.array([0.0, 4.0]), np.array([depth, depth]))
+    model = quasi_static_model(ground, cell, 20e3, locking, young_modulus=1e4 * cohesion)
+    particles = fill_ground(ground, cell, 4, model.density)
+    particles.cohesion[:] = cohesion
+    grid, work = model.allocate_grid(), allocate_workspace(particles.x.size)
+    row = round(depth / cell) + PADDING
+    footing = np.arange(PADDING + cells + 1) + row * grid.columns
+    footing = np.concatenate([footing, footing + grid.columns])  # and the nodes above, which a heaving particle reaches
+    dt = stable_step(COURANT, cell, model.wave_speed, 0.0)
+    velocity = 2.0 * half_width * settlement / (samples * steps * dt)
+    forces = [
+        push(particles, grid, work, model.soil, model.scheme, footing, velocity, dt, steps) for _ in range(samples)
+    ]
+    return np.array(forces) / (cohesion * (half_width + 0.5 * cell))
+
+
+def comes_to_rest(particles, grid, work, model):
+    """Return whether the unbalanced force dies before the ground has moved twice ``gamma H^2 / E``."""
+    before = copy_particles(particles)
+    height = model.surface.top - model.surface.y[-1]
+    far = 2.0 * model.density * STANDARD_GRAVITY * height**2 / YOUNG_MODULUS
+    dt = stable_step(COURANT, model.cell_size, model.wave_speed, 0.0)
+    for look in range(MOST_LOOKS):
+        advance(particles, grid, work, model.soil, model.scheme, STANDARD_GRAVITY, 0.0, dt, STEPS)
+        if observables.displacement(particles, before).max() > far:
+            return False
+        if look > 0 and unbalanced_share(grid, STANDARD_GRAVITY) < AT_REST:
+            return True
+    return False
+
+
+def factor_of_safety(model, cohesion, friction_angle, first):
+    """Return the factor that strength is divided by at collapse, between the last that holds and the first that fails.
+
+    Gravity acts on elastic ground; then strength falls by 1 % at a time, each time until the ground is at rest again.
+    Restarting from elastic ground for every factor would give the same limit in more steps, and an overshoot besides.
+    """
+    particles = in_situ_state(model)
+    grid, work = model.allocate_grid(), allocate_workspace(particles.x.size)
+    factor = first
+    while True:
+        particles.cohesion[:] = cohesion / factor
+        particles.friction_angle[:] = math.atan(math.tan(friction_angle) / factor)
+        if not comes_to_rest(particles, grid, work, model):
+            assert factor > first, f"the ground fails at the first factor {first}"
+            return factor / math.sqrt(STEP_OF_STRENGTH)
+        factor *= STEP_OF_STRENGTH
