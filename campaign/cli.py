@@ -42,9 +42,18 @@ def _pin_threads() -> None:
 def _run(options: argparse.Namespace) -> ExitCode:
     from campaign import realization
     from campaign.runner import run
-    from campaign.scene import load_scene
+    from campaign.scene import Scene, load_scene
 
-    return run(lambda: load_scene(options.scene, _overrides(options)), options.out, realization, options.allow_drift)
+    def read_scene() -> Scene:
+        return load_scene(options.scene, _overrides(options))
+
+    return run(read_scene, options.out, realization, _draw, options.allow_drift)
+
+
+def _draw(directory: Path) -> Path:
+    from campaign.report import write_report
+
+    return write_report(directory)
 
 
 def _validate(options: argparse.Namespace) -> ExitCode:

@@ -25,7 +25,7 @@ from campaign.running.dispatcher import Dispatcher
 from campaign.running.model import Model
 from campaign.running.progress import Progress
 from campaign.running.signals import StopRequest, listening
-from campaign.running.site import Site
+from campaign.running.site import Draw, Site
 from campaign.running.tally import Report
 from campaign.running.walltime import job_end
 from campaign.running.worker import LAST_CALL, Interrupt, Worker
@@ -50,7 +50,13 @@ class Order(NamedTuple):
     job_end: float
 
 
-def run(read_scene: Callable[[], Scene], out: Path | None, model: Model, allow_drift: bool = False) -> ExitCode:
+def run(
+    read_scene: Callable[[], Scene],
+    out: Path | None,
+    model: Model,
+    draw: Draw | None = None,
+    allow_drift: bool = False,
+) -> ExitCode:
     """Run a campaign on all ranks of this MPI job, or continue it.
 
     Parameters
@@ -61,6 +67,8 @@ def run(read_scene: Callable[[], Scene], out: Path | None, model: Model, allow_d
         The results directory; None for `campaign-NAME` after the scene.
     model
         The module `campaign.realization`, or a stand-in.
+    draw
+        Makes the report when the results are written.
     allow_drift
         Whether to continue what another version of the solver began.
     """
@@ -78,12 +86,12 @@ def run(read_scene: Callable[[], Scene], out: Path | None, model: Model, allow_d
         except REFUSALS as refusal:
             return _refuse(comm, refusal)
         try:
-            return _lead(comm, site, model, stop)
+            return _lead(comm, site, model, stop, draw)
         finally:
             site.close()
 
 
-def _lead(comm: MPI.Comm, site: Site, model: Model, stop: StopRequest) -> ExitCode:
+def _lead(comm: MPI.Comm, site: Site, model: Model, stop: StopRequest, draw: Draw | None) -> ExitCode:
     try:
         setup = model.prepare(site.scene)
         order = Order(setup, site.directory, site.scene.campaign.realization_timeout, job_end())
@@ -100,7 +108,7 @@ def _lead(comm: MPI.Comm, site: Site, model: Model, stop: StopRequest) -> ExitCo
     worker = _worker(comm, order, model, sampler, stop, service.poll)
     _work(worker, comm.scatter(first), dispatcher.exchange)
     service.finish()
-    return _agree(comm, site.conclude(setup, tally, dispatcher.stopped))
+    return _agree(comm, site.conclude(setup, tally, dispatcher.stopped, draw))
 
 
 def _follow(comm: MPI.Comm, model: Model, stop: StopRequest) -> ExitCode:

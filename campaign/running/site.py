@@ -1,6 +1,8 @@
 """A results directory in the hands of rank 0: opened for work, and concluded."""
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeAlias
 
 from campaign import dataset, manifest
 from campaign.exit_codes import ExitCode, RefusalError
@@ -15,6 +17,9 @@ from campaign.running.tally import Tally, outcome_of, tally_of
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.store import RecordStore
+
+Draw: TypeAlias = Callable[[Path], Path]
+"""Makes the report of a results directory and returns its page."""
 
 
 class Site:
@@ -72,8 +77,8 @@ class Site:
             tally.add(outcome_of(record))
         return tally
 
-    def conclude(self, setup: Setup, tally: Tally, stopped: str) -> ExitCode:
-        """Write the results, say how the campaign ended, and return its exit code."""
+    def conclude(self, setup: Setup, tally: Tally, stopped: str, draw: Draw | None) -> ExitCode:
+        """Write the results, draw them, say how the campaign ended, and return its exit code."""
         code, verdict = _end(tally, stopped)
         say(summary(self.scene, tally, verdict))
         try:
@@ -85,7 +90,8 @@ class Site:
             return ExitCode.RESUMABLE
         if tally.prefix > 0:
             say(f"Results: {self.directory / 'results.nc'} (opens with xarray)")
-            _attempt_report(self.directory)
+            if draw is not None:
+                _attempt(draw, self.directory)
             say(f"One realization again, with all particles: campaign replay {self.directory} K")
         if code is ExitCode.RESUMABLE:
             say("Give the same command again to continue.")
@@ -115,11 +121,9 @@ def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:
     return ExitCode.DONE, verdict
 
 
-def _attempt_report(directory: Path) -> None:
-    """Draw the figures if that can be done; the results do not depend on it."""
+def _attempt(draw: Draw, directory: Path) -> None:
+    """Draw the report if that can be done; the results do not depend on it."""
     try:
-        from campaign.report import write_report
-
-        say(f"Report: {write_report(directory)}")
+        say(f"Report: {draw(directory)}")
     except Exception as error:
         say(f"The report could not be made ({error!r}); results.nc is safe. Try again: campaign report {directory}")
