@@ -23,7 +23,7 @@ NOT_ESTIMATED = "not estimated"
 
 OUTCOMES = {
     Status.slid: "slid and came to rest",
-    Status.no_slide: "did not slide (no displacement beyond 1 m)",
+    Status.no_slide: "did not slide (nothing displaced farther than slide.failed)",
     Status.not_settled: "still moving at the end time; the run-out is a lower bound",
     Status.timeout: "failed: took too long",
     Status.diverged: "failed: diverged",

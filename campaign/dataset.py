@@ -110,7 +110,7 @@ def _influence(records: Sequence[Record]) -> Variables:
     finished = [np.asarray(record.values["displaced"]) for record in records if record.status not in FAILED]
     n_particles = np.shape(records[0].values["displaced"])
     share = np.sum(finished, axis=0, dtype="i8") / len(finished) if finished else np.full(n_particles, np.nan)
-    name = "share of the realizations without failure in which the particle is displaced by more than 0.1 m"
+    name = "share of the realizations without failure in which the particle is displaced farther than slide.displaced"
     return {"influence_probability": _variable("particle", share, "1", name)}
 
 

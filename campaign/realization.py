@@ -18,9 +18,10 @@ from solver.basis import half_length_in_cells
 from solver.geometry import Surface, fill_ground, slope_surface
 from solver.gravity import NotSettledError, in_situ_state
 from solver.grid import whole_cells
-from solver.march import FAILED, History, March, Outcome, run
+from solver.march import History, March, Outcome, run
 from solver.model import STANDARD_GRAVITY, Model, make_soil
 from solver.particles import Particles, copy_particles
+from solver.slide import Slide
 from solver.step import LOCKING, STRESS_UPDATES, Scheme
 
 Array = NDArray[np.float64]
@@ -94,6 +95,7 @@ def model_of(scene: Scene) -> Model:
         scheme=Scheme(STRESS_UPDATES[numerics.stress_update], numerics.flip, 0.0, LOCKING[numerics.locking]),
         courant=numerics.courant,
         ramp_time=numerics.ramp_time if numerics.gravity == "ramp" else 0.0,
+        slide=Slide(scene.slide.displaced, scene.slide.failed),
     )
 
 
@@ -202,16 +204,16 @@ def simulate(
     history = run(setup.model, start, setup.coordinates["time"], watch)
     values = _series(history) | _final_values(setup, start, history)
     values["wall_time"] = time.perf_counter() - begin
-    return Record(realization, status_of(history), history.reason, values)
+    return Record(realization, status_of(history, setup.model.slide), history.reason, values)
 
 
-def status_of(history: History) -> Status:
+def status_of(history: History, slide: Slide) -> Status:
     """Return how a march ended in the terms of the dataset."""
     if history.outcome is Outcome.DIVERGED:
         return Status.diverged
     if history.outcome is Outcome.LEFT_DOMAIN:
         return Status.left_domain
-    if history.max_displacement[-1] <= FAILED:
+    if history.max_displacement[-1] <= slide.failed:
         return Status.no_slide
     return Status.slid if history.outcome is Outcome.AT_REST else Status.not_settled
 
@@ -236,9 +238,9 @@ def _final_values(setup: Setup, start: Particles, history: History) -> dict[str,
     half_spacing = 0.5 * model.cell_size / np.sqrt(model.particles_per_cell)
     return shared | {
         "final_runout": history.runout[-1],
-        "final_runout_mass": observables.runout_mass(particles, start, model.surface),
-        "sliding_volume": observables.sliding_volume(particles, start),
+        "final_runout_mass": observables.runout_mass(particles, start, model.surface, model.slide),
+        "sliding_volume": observables.sliding_volume(particles, start, model.slide),
         "energy_error": history.energy_error,
         "deposit_surface": observables.deposit_surface(particles, half_spacing, column_edges(model)),
-        "displaced": (observables.displacement(particles, start) > observables.SLID).astype(np.uint8),
+        "displaced": observables.is_displaced(particles, start, model.slide).astype(np.uint8),
     }

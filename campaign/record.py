@@ -47,14 +47,16 @@ QUANTITIES: dict[str, Quantity] = {
     "max_displacement": Quantity(("time",), "m", "largest particle displacement since release"),
     "kinetic_energy": Quantity(("time",), "J/m", "kinetic energy per metre run"),
     "final_runout": Quantity((), "m", "final advance of the front-most slid particle from the initial toe"),
-    "final_runout_mass": Quantity((), "m", "final advance of the front beyond which 0.25 m2 of slid material lies"),
-    "sliding_volume": Quantity((), "m3/m", "volume displaced by more than 0.1 m, per metre run"),
+    "final_runout_mass": Quantity(
+        (), "m", "final advance of the front beyond which an area of (5 slide.displaced)^2 of slid material lies"
+    ),
+    "sliding_volume": Quantity((), "m3/m", "volume displaced farther than slide.displaced, per metre run"),
     "settle_time": Quantity((), "s", "time from release to rest"),
     "energy_error": Quantity((), "1", "energy imbalance over released potential energy"),
     "wall_time": Quantity((), "s", "wall-clock time of the simulation"),
     "steps": Quantity((), "1", "number of time steps", "i8"),
     "deposit_surface": Quantity(("x",), "m", "final elevation of the ground surface"),
-    "displaced": Quantity(("particle",), "1", "1 where a particle is displaced by more than 0.1 m", "u1"),
+    "displaced": Quantity(("particle",), "1", "1 where a particle is displaced farther than slide.displaced", "u1"),
 }
 """Everything a realization reports; records and the dataset follow from this table."""
 

@@ -127,6 +127,13 @@ class Numerics(Section):
     output_interval: PositiveTime = 0.1
 
 
+class Slide(Section):
+    """From which displacement since release on, in m, ground belongs to the slide, and a slope has failed."""
+
+    displaced: PositiveLength = 0.1
+    failed: PositiveLength = 1.0
+
+
 class Campaign(Section):
     """How many realizations, from which seed, and when they are enough."""
 
@@ -149,6 +156,7 @@ class SceneFile(Section):
     soil: Soil
     field: RandomField
     numerics: Numerics
+    slide: Slide = Slide()
     campaign: Campaign
 
 
@@ -161,7 +169,7 @@ class Scene(SceneFile):
 
     def identity(self) -> dict[str, Any]:
         """Return, by dotted key, every SI value that decides what realization k is; ready for JSON."""
-        sections = self.model_dump(mode="json", include={"geometry", "soil", "field", "numerics"})
+        sections = self.model_dump(mode="json", include={"geometry", "soil", "field", "numerics", "slide"})
         values = flatten(sections) | {"campaign.seed": self.campaign.seed}
         return {key: value for key, value in values.items() if value is not None}
 

@@ -10,13 +10,11 @@ from solver import observables
 from solver.grid import Grid
 from solver.model import STANDARD_GRAVITY, Model
 from solver.particles import Particles, copy_particles
+from solver.slide import PAPER, Slide
 from solver.step import GRAVITY_WORK, INTERNAL_WORK, Workspace, advance, allocate_workspace
 from solver.timestep import even_steps, stable_step
 
-FAILED = 1.0  # m: a slope that moves farther has failed (the paper, section 3.2); arms the end criterion
 REST_ENERGY = 1e-3  # of the largest kinetic energy
-REST_SPEED = 0.05  # m/s, of the farthest particle: it would still travel v^2 / 2a, a few millimetres
-REST_TIME = 0.2  # s both must hold
 MOST_STEPS_UNCHECKED = 64
 MOST_ENERGY_CREATED = 0.05  # of the work of gravity: beyond it the scheme, not the ground, drives the slide
 
@@ -139,7 +137,7 @@ class March:
     @property
     def creates_energy(self) -> bool:
         """Whether a slope that moves has gained more energy than gravity gave, the mark of an unstable step."""
-        has_moved = observables.displacement(self.particles, self.start).max() > FAILED
+        has_moved = observables.displacement(self.particles, self.start).max() > self.model.slide.failed
         error = self.energy_error()
         if has_moved and error > MOST_ENERGY_CREATED:
             self.reason = f"The scheme created energy, {error:.1%} of the work of gravity; lower numerics.courant."
@@ -150,7 +148,8 @@ class March:
 class RestDetector:
     """Decide that a slide is over: it has moved, and its energy and its advance have stayed small for a while."""
 
-    def __init__(self) -> None:
+    def __init__(self, slide: Slide = PAPER) -> None:
+        self._slide = slide
         self._largest_energy = 0.0
         self._last = (0.0, 0.0)
         self._quiet_since = np.nan
@@ -160,12 +159,12 @@ class RestDetector:
         self._largest_energy = max(self._largest_energy, energy)
         last_time, last_farthest = self._last
         self._last = (time, farthest)
-        has_stopped = abs(farthest - last_farthest) < REST_SPEED * (time - last_time)
-        if not (has_stopped and farthest > FAILED and energy < REST_ENERGY * self._largest_energy):
+        has_stopped = abs(farthest - last_farthest) < self._slide.rest_speed * (time - last_time)
+        if not (has_stopped and farthest > self._slide.failed and energy < REST_ENERGY * self._largest_energy):
             self._quiet_since = np.nan
         elif np.isnan(self._quiet_since):
             self._quiet_since = time
-        return bool(time - self._quiet_since >= REST_TIME - 1e-9)
+        return bool(time - self._quiet_since >= self._slide.rest_time - 1e-9)
 
 
 def run(
@@ -188,7 +187,7 @@ def run(
     """
     march = March(model, start)
     series = {name: np.full(times.size, np.nan) for name in ("runout", "max_displacement", "kinetic_energy")}
-    rest = RestDetector()
+    rest = RestDetector(model.slide)
     outcome = Outcome.END_TIME
     failure = None
     for k, time in enumerate(times):
@@ -200,7 +199,7 @@ def run(
         now = march.particles
         farthest = float(observables.displacement(now, start).max())
         energy = observables.resolved_kinetic_energy(march.grid)
-        series["runout"][k] = observables.runout(now, start, model.surface)
+        series["runout"][k] = observables.runout(now, start, model.surface, model.slide)
         series["max_displacement"][k] = farthest
         series["kinetic_energy"][k] = energy
         if rest.is_over(march.time, farthest, energy):

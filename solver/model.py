@@ -7,6 +7,7 @@ from solver.elastic import bulk_modulus, p_wave_speed, shear_modulus
 from solver.geometry import Surface
 from solver.grid import Grid, allocate_grid
 from solver.mohr_coulomb import Soil
+from solver.slide import PAPER, Slide
 from solver.step import Scheme
 
 STANDARD_GRAVITY = 9.81  # m/s2
@@ -26,6 +27,7 @@ class Model(NamedTuple):
     scheme: Scheme
     courant: float
     ramp_time: float  # s over which gravity grows with plasticity active; 0 releases a loaded slope at once
+    slide: Slide = PAPER  # what counts as a slide
 
     @property
     def wave_speed(self) -> float:

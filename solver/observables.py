@@ -5,9 +5,7 @@ import numpy as np
 from solver.geometry import Surface
 from solver.grid import SMALLEST_MASS, Grid
 from solver.particles import Particles
-
-SLID = 0.1  # m: a particle displaced farther belongs to the sliding mass (the paper, section 3.2)
-FRONT_AREA = 0.25  # m2: the mass front leaves this much of the sliding mass ahead of it
+from solver.slide import PAPER, Slide
 
 
 def displacement(particles: Particles, start: Particles) -> np.ndarray:
@@ -16,40 +14,46 @@ def displacement(particles: Particles, start: Particles) -> np.ndarray:
     return distance
 
 
+def is_displaced(particles: Particles, start: Particles, slide: Slide = PAPER) -> np.ndarray:
+    """Return the mask (n,) of the particles that belong to the sliding mass."""
+    moved: np.ndarray = displacement(particles, start) > slide.displaced
+    return moved
+
+
 def slope_body(start: Particles, surface: Surface) -> np.ndarray:
     """Return the mask (n,) of the particles that lie above the toe level before the slide."""
     above: np.ndarray = start.y > surface.toe[1]
     return above
 
 
-def runout(particles: Particles, start: Particles, surface: Surface) -> float:
+def runout(particles: Particles, start: Particles, surface: Surface, slide: Slide = PAPER) -> float:
     """Return the advance of the front-most slid particle of the slope body beyond the initial toe, in m (0 if none).
 
     Ground in front of the toe that is pushed or heaved does not count as run-out, only the material that comes over it.
     """
-    front = (displacement(particles, start) > SLID) & slope_body(start, surface)
+    front = is_displaced(particles, start, slide) & slope_body(start, surface)
     toe_x = surface.toe[0]
     return max(0.0, float(particles.x[front].max() - toe_x)) if front.any() else 0.0
 
 
-def runout_mass(particles: Particles, start: Particles, surface: Surface) -> float:
-    """Return the advance in m of the place beyond which ``FRONT_AREA`` of the slid slope body lies (0 if none).
+def runout_mass(particles: Particles, start: Particles, surface: Surface, slide: Slide = PAPER) -> float:
+    """Return the advance in m of the place beyond which ``slide.front_area`` of the slid slope body lies (0 if none).
 
     Between particles the area ahead is interpolated, so the measure changes continuously with the state.
     """
-    front = (displacement(particles, start) > SLID) & slope_body(start, surface)
+    front = is_displaced(particles, start, slide) & slope_body(start, surface)
     order = np.argsort(-particles.x[front], kind="stable")
     x = particles.x[front][order]
     area = particles.volume[front][order]
     ahead = np.cumsum(area) - 0.5 * area
-    if x.size == 0 or ahead[-1] < FRONT_AREA:
+    if x.size == 0 or ahead[-1] < slide.front_area:
         return 0.0
-    return max(0.0, float(np.interp(FRONT_AREA, ahead, x)) - surface.toe[0])
+    return max(0.0, float(np.interp(slide.front_area, ahead, x)) - surface.toe[0])
 
 
-def sliding_volume(particles: Particles, start: Particles) -> float:
-    """Return the area in m2 (m3 per metre run) that the particles displaced by more than 0.1 m had before the slide."""
-    return float(start.volume[displacement(particles, start) > SLID].sum())
+def sliding_volume(particles: Particles, start: Particles, slide: Slide = PAPER) -> float:
+    """Return the area in m2 (m3 per metre run) that the displaced particles had before the slide."""
+    return float(start.volume[is_displaced(particles, start, slide)].sum())
 
 
 def kinetic_energy(particles: Particles) -> float:

@@ -24,11 +24,11 @@ def influence(results: Results, section: Section) -> Illustration:
     section.frame(panels[1])
     panels[1].legend(loc="upper right")
     panels[1].set_xlabel("distance (m)")
-    letter(panels, ["probability of displacement beyond 0.1 m", "ground surface after the slide"])
+    letter(panels, ["probability of belonging to the slide", "ground surface after the slide"])
     caption = (
-        f"(a) Share of the {n} realizations without failure in which the ground at a place is displaced by more than "
-        f"0.1 m, shown where it was before the slide. (b) The ground surface after the slide: median and the range "
-        "from the 5 % to the 95 % quantile, column by column. Dashed: the ground before the slide."
+        f"(a) Share of the {n} realizations without failure in which the ground at a place is displaced by more "
+        "than slide.displaced, shown where it was before the slide. (b) The ground surface after the slide: median and "
+        "the range from the 5 % to the 95 % quantile, column by column. Dashed: the ground before the slide."
     )
     alt = f"Map of the probability of displacement, and the final surface with its spread, from {n} realizations."
     return Illustration(figure, caption, alt)

@@ -71,8 +71,7 @@ def _cells_of_height(cell: float, height: float) -> str | None:
 def _cells_of_relief(cell: float, surface: Points | None) -> str | None:
     if surface is None:
         return None
-    elevations = [elevation for _, elevation in surface]
-    return _cells_of_height(cell, max(elevations) - min(elevations))
+    return _cells_of_height(cell, _relief(surface))
 
 
 @rule("geometry.slope.crest", "numerics.cell")
@@ -94,6 +93,25 @@ def _cell_average_of_wide_basis(locking: str, basis: str) -> str | None:
             'the domain of a "bspline" particle spans two cells, and averaged over both the ground is too weak; '
             'use the basis "gimp"'
         )
+    return None
+
+
+@rule("slide.failed", "geometry.slope.height")
+def _failure_within_height(failed: float, height: float) -> str | None:
+    if failed >= height:
+        return f"a slope of {height:g} m can fail without moving that far; use about a fifteenth of its height"
+    return None
+
+
+@rule("slide.failed", "geometry.surface")
+def _failure_within_relief(failed: float, surface: Points | None) -> str | None:
+    return None if surface is None else _failure_within_height(failed, _relief(surface))
+
+
+@rule("slide.displaced", "slide.failed")
+def _displaced_before_failed(displaced: float, failed: float) -> str | None:
+    if displaced > failed:
+        return f"a slope that has failed, by {failed:g} m, must have a sliding mass; use at most that"
     return None
 
 
@@ -202,6 +220,11 @@ def _ramp_within_run(ramp_time: float, end_time: float, gravity: str) -> str | N
     if gravity == "ramp" and ramp_time >= end_time:
         return f"the run ends at {end_time:g} s, before gravity is whole; shorten the ramp or run longer"
     return None
+
+
+def _relief(surface: Points) -> float:
+    elevations = [elevation for _, elevation in surface]
+    return max(elevations) - min(elevations)
 
 
 def _degrees(angle: float) -> str:

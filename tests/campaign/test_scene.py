@@ -161,7 +161,9 @@ def test_a_syntax_error_names_the_line_and_the_missing_quotes(tmp_path: Path) ->
 
 def test_an_unknown_scene_lists_the_built_in_ones() -> None:
     message = complaint(source="ma2032")
-    assert message.startswith('"ma2032" is neither a file nor a built-in scene; built in are ma2023, ma2023-printed.')
+    assert message.startswith(
+        '"ma2032" is neither a file nor a built-in scene; built in are bui2008, ma2023, ma2023-printed.'
+    )
     assert message.endswith('Did you mean "ma2023"?')
 
 
@@ -187,7 +189,7 @@ def test_a_file_that_is_not_text_is_refused(tmp_path: Path) -> None:
             ': there is no key "cohesionn"; did you mean "cohesion"?',
         ),
         ("soil.cell=1 m", 'it belongs to another section, as "numerics.cell".'),
-        ("mesh.size=1 m", "the keys here are title, geometry, soil, field, numerics, campaign."),
+        ("mesh.size=1 m", "the keys here are title, geometry, soil, field, numerics, slide, campaign."),
         ("title.a=1", "--set title.a: title is a value, not a section"),
         ("nonsense", "--set nonsense has no key and value; write KEY=VALUE"),
         ("=1", "--set =1 has no key and value; write KEY=VALUE"),
@@ -351,6 +353,14 @@ def test_a_surface_may_have_a_vertical_face() -> None:
 
 def test_a_slope_that_just_fits_its_cells_is_accepted() -> None:
     load_scene("ma2023", ["geometry.slope.height=4 m", "geometry.slope.crest=2 m"])
+
+
+def test_what_counts_as_a_slide_must_suit_the_height() -> None:
+    assert "slide.displaced" in complaint("slide.displaced=2 m")
+    assert "a slope of 15 m can fail without moving that far" in complaint("slide.failed=15 m")
+    column = [["0 m", "0.1 m"], ["0.2 m", "0.1 m"], ["0.2 m", "0 m"], ["0.8 m", "0 m"]]
+    (message,) = found_in(read_document("bui2008").tables | {"slide": {}, "geometry": {"surface": column}})
+    assert message.startswith("slide.failed (scene.toml) is not given, but a slope of 0.1 m can fail")
 
 
 def test_a_wrong_point_is_named_by_its_number() -> None:

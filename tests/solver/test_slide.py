@@ -1,0 +1,50 @@
+"""Two displacements decide what a slide is, at every scale."""
+
+import numpy as np
+import pytest
+from small_slope import COHESION, small_model, with_strength
+
+from solver.geometry import Surface
+from solver.gravity import in_situ_state
+from solver.march import Outcome, RestDetector, run
+from solver.observables import runout_mass, sliding_volume
+from solver.slide import PAPER, Slide
+
+
+def scaled_run(scale):
+    """Return model, start and history of the same slope with all lengths times ``scale``, by Froude's similarity."""
+    model = small_model(residual=2e3)
+    surface = Surface(model.surface.x * scale, model.surface.y * scale)
+    stiffness = {name: getattr(model.soil, name) * scale for name in ("bulk_modulus", "shear_modulus")}
+    soil = model.soil._replace(cohesion_residual=model.soil.cohesion_residual * scale, **stiffness)
+    slide = Slide(PAPER.displaced * scale, PAPER.failed * scale)
+    model = model._replace(surface=surface, soil=soil, cell_size=model.cell_size * scale, slide=slide)
+    start = with_strength(in_situ_state(model), COHESION * scale)
+    return model, start, run(model, start, np.linspace(0.0, 8.0, 81) * np.sqrt(scale))
+
+
+def test_a_small_slide_is_a_large_one_seen_from_afar():
+    """Lengths as 1 to L, times as 1 to sqrt(L); but for rounding and the absolute mass below which a node is empty."""
+    scale = 1.0 / 64.0
+    model, start, small = scaled_run(scale)
+    paper, paper_start, large = scaled_run(1.0)
+    assert small.outcome is large.outcome is Outcome.AT_REST
+    assert small.settle_time == pytest.approx(np.sqrt(scale) * large.settle_time, rel=1e-9)
+    np.testing.assert_allclose(small.runout, scale * large.runout, rtol=1e-4)
+    front = runout_mass(large.particles, paper_start, paper.surface, paper.slide)
+    assert front > 0.5
+    assert runout_mass(small.particles, start, model.surface, model.slide) == pytest.approx(scale * front, rel=1e-4)
+    area = sliding_volume(large.particles, paper_start, paper.slide)
+    assert sliding_volume(small.particles, start, model.slide) == pytest.approx(scale**2 * area, rel=1e-4)
+
+
+def test_at_the_scale_of_the_paper_the_derived_measures_are_round():
+    assert (PAPER.front_area, PAPER.rest_speed, PAPER.rest_time) == (0.25, 0.05, 0.2)
+
+
+def test_a_column_of_bars_comes_to_rest_on_its_own_scale():
+    """Quiet after 20 mm of travel: no slide at the scale of the paper, over after two output times at its own."""
+    own, paper = RestDetector(Slide(0.5e-3, 5e-3)), RestDetector()
+    story = [(0.0, 0.0, 0.0), (0.02, 0.02, 1.0), (0.04, 0.02, 1e-6), (0.06, 0.02, 1e-6)]
+    assert [own.is_over(*state) for state in story] == [False, False, False, True]
+    assert not any(paper.is_over(*state) for state in story)

@@ -1,0 +1,151 @@
+"""Collapse of columns of aluminium bars, against experiments: truly two-dimensional, without cohesion, to rest.
+
+Bui, Fukagawa, Sako and Ohno (2008, IJNAMG 32:1537) measured the surface of one column at rest and the line below which
+nothing moved; Nguyen, Bui and Fukagawa (2015, arXiv 1512.05180) how far columns of every aspect ratio run. The base is
+fixed, so bars slide on it with their own friction. No parameter is fitted.
+"""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from campaign.realization import prepare, strengthen
+from campaign.scene import load_scene
+from solver import observables
+from solver.march import Outcome, run
+
+DATA = Path(__file__).parent / "data"
+COLUMN = 0.01  # m, width of the columns whose mean height is compared
+FRONT_HEIGHT = 1.5e-3  # m: of the last measured point, at the front
+
+
+class Collapse(NamedTuple):
+    """A column at rest; lengths in m."""
+
+    start: object
+    history: object
+    slide: object
+    column: np.ndarray  # (k,) centres
+    height: np.ndarray  # (k,)
+
+    @property
+    def front(self):
+        """Place where the connected deposit is lower than the last measured point of the front."""
+        k = int(np.argmax(self.height < FRONT_HEIGHT))
+        return np.interp(-FRONT_HEIGHT, -self.height[k - 1 : k + 1], self.column[k - 1 : k + 1])
+
+
+def collapse(*overrides):
+    """Run the built-in scene with its mean strengths everywhere."""
+    scene = load_scene("bui2008", overrides)
+    setup = prepare(scene)
+    n = setup.n_particles
+    strength = scene.soil.cohesion.mean, scene.soil.friction_angle.mean
+    start = strengthen(setup, *(np.full(n, mean) for mean in strength))
+    history = run(setup.model, start, setup.coordinates["time"])
+    edges = np.arange(0.0, setup.model.surface.width + 0.5 * COLUMN, COLUMN)
+    half_spacing = 0.5 * setup.model.cell_size / np.sqrt(setup.model.particles_per_cell)
+    # Separated bars have been given the volume of the gaps between them; their mass knows better.
+    debris = history.particles._replace(volume=history.particles.mass / setup.model.density)
+    height = observables.deposit_surface(debris, half_spacing, edges)
+    return Collapse(start, history, setup.model.slide, 0.5 * (edges[1:] + edges[:-1]), height)
+
+
+def measured(name):
+    """Return ``x, z`` in m of the digitised points."""
+    return np.loadtxt(DATA / f"bui2008_{name}.csv", delimiter=",", skiprows=5).T * 1e-3
+
+
+def surface_error(bars):
+    """Return the root mean square difference to the measured surface in m."""
+    x, z = measured("surface")
+    return float(np.sqrt(np.mean((np.interp(x, bars.column, bars.height) - z) ** 2)))
+
+
+def failure_line_error(bars):
+    """Return the differences in m between the top of the bars that did not move and the measured line."""
+    x, z = measured("failure_line")
+    stayed = ~observables.is_displaced(bars.history.particles, bars.start, bars.slide)
+    spacing = np.sqrt(bars.start.volume.mean())
+    tops = [bars.start.y[stayed & (np.abs(bars.start.x - place) <= 0.6 * spacing)].max(initial=0.0) for place in x]
+    return np.array(tops) + 0.5 * spacing - z
+
+
+def rod_column(aspect_ratio):
+    """Return the overrides for a column 100 mm high of ``aspect_ratio`` times its width, 20 cells across the less."""
+    width = 100.0 / aspect_ratio
+    cell = min(100.0, width) / 20.0
+    end = cell * round(9.0 * aspect_ratio**0.5 * width / cell)
+    points = ((0, 100), (width, 100), (width, 0), (end, 0))
+    surface = ", ".join(f'["{x:.6g} mm", "{y:.6g} mm"]' for x, y in points)
+    return f"geometry.surface=[{surface}]", f'numerics.cell="{cell:.6g} mm"'
+
+
+@pytest.fixture(scope="module")
+def bars():
+    return collapse()
+
+
+def test_the_column_comes_to_rest(bars):
+    assert bars.history.outcome is Outcome.AT_REST
+    assert bars.history.settle_time < 1.5
+    assert abs(bars.history.energy_error) < 0.01
+
+
+def test_surface_at_rest(bars):
+    """The measured deposit has 1.5 % more area than the column, which is 1 mm of the 5."""
+    assert surface_error(bars) < 5e-3
+
+
+def test_crest_keeps_its_height(bars):
+    assert bars.height[0] == pytest.approx(0.1, abs=1e-3)
+
+
+def test_failure_line(bars):
+    """As close as a cell, and on the side of more material that moves not."""
+    assert np.sqrt(np.mean(failure_line_error(bars) ** 2)) < 5e-3
+
+
+FRONT = (
+    "measured 442 mm, computed 510: in pure FLIP the last percents of the mass separate, bounce and run on; the target "
+    "of 10 % stays"
+)
+
+
+@pytest.mark.xfail(strict=True, reason=FRONT)
+def test_front(bars):
+    assert bars.front == pytest.approx(0.442, rel=0.10)
+
+
+def test_front_is_not_far_beyond(bars):
+    assert 0.442 < bars.front < 0.442 * 1.2
+
+
+@pytest.mark.slow
+def test_finer_cells_tell_the_same():
+    """So the front is wrong for another reason than the cells."""
+    fine = collapse('numerics.cell="2.5 mm"')
+    assert fine.front == pytest.approx(0.510, abs=0.01)
+    assert surface_error(fine) < 5e-3
+
+
+@pytest.mark.slow
+def test_more_particles_in_a_cell_tell_the_same():
+    fine = collapse("numerics.particles_per_cell=9")
+    assert fine.front == pytest.approx(0.510, abs=0.02)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("aspect_ratio", [1.0, 1.5, 2.0])
+def test_scaling_of_rod_columns(aspect_ratio):
+    """Nguyen, Bui and Fukagawa: ``d / d0 = 4.30 a^0.72`` and ``h0 / h = 1.42 a^(2/3)`` above 0.65.
+
+    With the friction angle of the other experiment, because theirs is not known here. At 0.65 the measured law begins;
+    its (d - d0) / d0 there is 2.15, against 1.21 that Bui et al. measured at 0.5.
+    """
+    rods = collapse(*rod_column(aspect_ratio))
+    width = 0.1 / aspect_ratio
+    assert rods.front / width == pytest.approx(4.30 * aspect_ratio**0.72, rel=0.15)
+    assert 0.1 / rods.height[0] == pytest.approx(1.42 * aspect_ratio ** (2 / 3), rel=0.1)
