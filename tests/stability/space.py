@@ -1,7 +1,8 @@
 """Failures of the space discretisation: numerical fracture, and softening that depends on the mesh."""
 
 import numpy as np
-from bodies import BASES, MUSL, grid_without_walls, lattice, node_indices
+from bodies import BASES
+from driver import MUSL, grid_without_walls, lattice, node_indices
 
 from solver.basis import allocate_stencil, evaluate_stencil
 from solver.model import make_soil
@@ -39,7 +40,7 @@ HEIGHT, PEAK, RESIDUAL, RATE, REFERENCE = 2.0, 10e3, 2e3, 10.0, 0.25  # m, Pa, P
 
 
 def slip_to_half_strength(cell, rate):
-    """Return the slip (m) at which a sheared strip of Tresca soil has lost half of what softening takes.
+    """Return the plastic slip (m) at which a sheared strip of Tresca soil has lost half of what softening takes.
 
     The strip is four cells wide. Its foot is fixed, its uppermost cells are drawn sideways, one row is 5 % weaker.
     """
@@ -61,7 +62,7 @@ def slip_to_half_strength(cell, rate):
         shear = strip.stress_xy[~drawn].mean()
         peak = max(peak, shear)
         if peak > 0.9 * PEAK and shear < 0.5 * (peak + RESIDUAL):
-            return slip
+            return slip - shear * (HEIGHT - cell) / soil.shear_modulus
     return np.nan
 
 

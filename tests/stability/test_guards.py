@@ -1,4 +1,4 @@
-"""No unstable run ends as a normal record: what scene rules would refuse is run, and the guards of the march stop it."""
+"""No unstable run ends as a normal record: what scene rules refuse is run, and the guards of the march stop it."""
 
 import pytest
 from whole_runs import STABLE, UNSTABLE, is_stopped, label, simulate

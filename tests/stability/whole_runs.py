@@ -22,7 +22,11 @@ def steps(basis, stress_update, *courants, locking="none", gravity="release"):
 
 
 UNSTABLE = [
-    *(run for locking in ("none", "cell-average") for run in steps("gimp", "musl", 2.0, 2.2, 2.5, 3.0, locking=locking)),
+    *(
+        run
+        for locking in ("none", "cell-average")
+        for run in steps("gimp", "musl", 2.0, 2.2, 2.5, 3.0, locking=locking)
+    ),
     *(run for locking in ("none", "cell-average") for run in steps("gimp", "usf", 2.0, 2.5, locking=locking)),
     *steps("gimp", "usl", 0.7, 0.8, 1.0, 1.5),
     *steps("gimp", "usl", 1.0, 1.2, 1.5, locking="cell-average"),
@@ -39,7 +43,10 @@ UNSTABLE = [
     {"dilation_angle": radians(60.0)},
 ]
 STABLE = [
-    *({"locking": locking, "stress_update": update} for locking, update in product(("none", "cell-average"), ("musl", "usf"))),
+    *(
+        {"locking": locking, "stress_update": update}
+        for locking, update in product(("none", "cell-average"), ("musl", "usf"))
+    ),
     *steps("gimp", "usl", 0.5),
     *steps("gimp", "usl", 0.5, locking="cell-average"),
     *steps("bspline", "musl", 0.6),
