@@ -14,6 +14,20 @@ EXTREME_QUANTILE = 5.5
 LEAST_CELLS_OF_HEIGHT = 4
 LEAST_CELLS_OF_LENGTH = 2
 
+# Below it an elastic body that crosses cells gains less than a tenth of its vibration energy, and one that trembles in
+# place is stable wherever its particles lie: the stability atlas, tests/stability.
+LARGEST_COURANT = {
+    ("gimp", "musl"): 0.9,
+    ("gimp", "usf"): 1.1,
+    ("gimp", "usl"): 0.5,
+    ("bspline", "musl"): 1.1,
+    ("bspline", "usf"): 1.5,
+    ("bspline", "usl"): 0.6,
+    ("linear", "musl"): 0.2,
+    ("linear", "usf"): 0.1,
+    ("linear", "usl"): 0.0,
+}
+
 
 class Rule(NamedTuple):
     """A check on the values of some keys; a complaint is reported at the first of them."""
@@ -82,6 +96,22 @@ def _cells_of_length(length: float, cell: float) -> str | None:
         return (
             f"it must span at least {LEAST_CELLS_OF_LENGTH} cells of {cell:g} m; "
             f"use at least {LEAST_CELLS_OF_LENGTH * cell:g} m or a smaller numerics.cell"
+        )
+    return None
+
+
+@rule("numerics.courant", "numerics.basis", "numerics.stress_update")
+def _stable_step(courant: float, basis: str, stress_update: str) -> str | None:
+    largest = LARGEST_COURANT[basis, stress_update]
+    if largest == 0.0:
+        return (
+            f'the basis "{basis}" with the stress update "{stress_update}" is unstable at every Courant number as '
+            'particles cross cells; use the basis "gimp" or the stress update "musl"'
+        )
+    if courant > largest:
+        return (
+            f'the basis "{basis}" with the stress update "{stress_update}" creates energy beyond {largest:g}; '
+            "use at most that"
         )
     return None
 

@@ -264,6 +264,14 @@ def test_the_cell_average_needs_a_narrow_basis() -> None:
     assert 'use the basis "gimp"' in text
 
 
+def test_the_time_step_suits_basis_and_stress_update() -> None:
+    """The limits are those that tests/stability measures."""
+    load_scene("ma2023", ["numerics.courant=0.9"])
+    assert "creates energy beyond 0.9; use at most that" in complaint("numerics.courant=0.95")
+    assert "beyond 0.5" in complaint("numerics.stress_update=usl")
+    assert "unstable at every" in complaint("numerics.basis=linear", "numerics.stress_update=usl")
+
+
 def test_gaussian_fields_can_have_any_correlation() -> None:
     strong = ("field.cross_correlation=-0.95", "soil.cohesion.cov=0.3", "soil.friction_angle.cov=0.3")
     load_scene("ma2023", strong)

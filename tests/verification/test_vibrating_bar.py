@@ -30,10 +30,10 @@ def fixed_free_bar(cell, half_length=0.25):
     return bar, grid, np.sin(np.pi * X / (2.0 * LENGTH))
 
 
-def vibrate(cells, amplitude, scheme=MUSL, courant=0.3):
+def vibrate(cells, amplitude, scheme=MUSL, courant=0.3, half_length=0.25):
     """Return rms displacement error over ``amplitude`` (m), and relative errors of period and energy."""
     cell = LENGTH / cells
-    bar, grid, mode = fixed_free_bar(cell)
+    bar, grid, mode = fixed_free_bar(cell, half_length)
     X, work, soil = bar.x.copy(), allocate_workspace(bar.x.size), elastic_soil(MODULUS, 0.0)
     steps = round(PERIODS * PERIOD * SPEED / (courant * cell))
     dt = PERIODS * PERIOD / steps

@@ -1,0 +1,182 @@
+"""The stability atlas: run every method where it fails. ``python tests/stability/atlas.py atlas.png > atlas.md``."""
+
+import sys
+from typing import NamedTuple
+
+import laws
+import space
+import time_step
+from bodies import BASES, crossing_bar, displacement_error, flying_block
+from driver import SCHEMES
+from quasi_static import bearing_pressure
+from sweep import COURANTS, draw, sweep
+from test_limit_loads import PRANDTL
+from whole_runs import UNSTABLE, is_stopped, simulate
+
+from campaign.scene_file.rules import LARGEST_COURANT
+
+
+class Entry(NamedTuple):
+    """One line of the atlas."""
+
+    condition: str
+    symptom: str
+    expected: str
+    measured: str
+    guard: str
+
+
+def largest_quiet(gains, most=0.1):
+    """Return the Courant number up to which a body gains less than ``most`` of its vibration energy."""
+    quiet = 0.0
+    for courant, gain in zip(COURANTS, gains, strict=True):
+        if not gain < most:
+            break
+        quiet = courant
+    return quiet
+
+
+def time_step_entries(block, bar):
+    """Return a line for each basis and stress update."""
+    for (basis, scheme), largest in LARGEST_COURANT.items():
+        crossing = min(largest_quiet(gains[basis, scheme]) for gains in (block, bar))
+        still = time_step.limit_of_block(basis, scheme)
+        expected = time_step.EXPECTED[basis, "usl" if scheme == "usl" else "musl"]
+        yield Entry(
+            f"{basis} with {scheme.upper()}: Courant number",
+            "energy from nowhere, explosion",
+            f"{expected:.2f} in place",
+            f"{still:.2f} in place, {crossing or 'none'} with crossing",
+            f"`numerics.courant` at most {largest:g}" if largest else "the pair is refused",
+        )
+
+
+def particle_entry():
+    """Return the line of one particle near a node."""
+    places = (0.5, 0.2, 0.05, 0.01)
+    limits = [time_step.limit_of_particle(place) for place in places]
+    return Entry(
+        f"one linear particle under USL, {', '.join(f'{place:g}' for place in places)} cells beyond a node",
+        "the limit vanishes at the node",
+        "Courant " + ", ".join(f"{expected:.2f}" for _, expected in limits),
+        ", ".join(f"{measured:.2f}" for measured, _ in limits),
+        "linear with USL is refused",
+    )
+
+
+def crossing_entry():
+    """Return the line of the linear basis under crossing."""
+    linear, gimp = ([displacement_error(basis, cells) for cells in (12, 25, 50)] for basis in ("linear", "gimp"))
+    return Entry(
+        "linear basis, particles cross cells (bar of 12, 25 and 50 cells, MUSL, Courant 0.3)",
+        "stress jumps by its own size",
+        "grows with refinement; GIMP stays at the 2 % that finite strain explains",
+        "displacement error "
+        + ", ".join(f"{error:.0%}" for error in linear)
+        + "; GIMP "
+        + ", ".join(f"{error:.1%}" for error in gimp),
+        '`basis = "gimp"` is the default; linear at most at Courant 0.2',
+    )
+
+
+def fracture_entry(basis):
+    """Return the line of numerical fracture of one basis."""
+    (first, last), (may, must) = space.fracture(basis), space.expected_fracture(basis)
+    return Entry(
+        f"{basis}: stretch, two particles a cell and direction",
+        "neighbours share no node: the body breaks without cause",
+        f"begins at {may:.1f}, complete at {must:.1f}",
+        f"{first:.1f}, {last:.1f}",
+        "none in the run; `final_runout_mass` ignores what has flown off in front",
+    )
+
+
+def space_entries():
+    """Return the lines of locking and of softening."""
+    plain, cured = (bearing_pressure(5, locking)[-1] / PRANDTL for locking in ("none", "cell-average"))
+    local, scaled = space.mesh_dependence(False), space.mesh_dependence(True)
+    yield Entry(
+        "plastic flow without change of volume (Prandtl's strip load, 5 cells on half the width)",
+        "over-strength without a plateau",
+        "load over the exact one above 1.1; within 5 % with cell averages",
+        f"{plain:.2f}; {cured:.2f} with cell averages",
+        '`locking = "cell-average"` is the default',
+    )
+    yield Entry(
+        "local softening, cells halved (sheared strip)",
+        "slip to half strength shrinks with the cell",
+        "by 2; by 1 if the rate grows with the cell",
+        f"{local:.2f}; {scaled:.2f} if scaled",
+        "`softening.reference_cell` scales the rate",
+    )
+
+
+def law_entries():
+    """Return the lines of laws and formulas."""
+    for basis in BASES:
+        yield Entry(
+            f"{basis}: share `b` of PIC in the velocity update",
+            "viscosity `a b h^2 / dt`, larger for smaller steps",
+            f"a = 1/6 + (l_p / h)^2 / 3 = {laws.expected_pic_constant(basis):.3f}",
+            f"{laws.pic_constant(basis):.3f}",
+            "half a percent of energy destroyed ends the run",
+        )
+    growth = ", ".join(f"{laws.first_order_growth(steps):.3f}" for steps in (200, 2000))
+    yield Entry(
+        "first-order spin, one turn in 200 and 2000 steps",
+        "the deviator grows",
+        "exp(8 pi^2 / n) = 1.484, 1.040",
+        growth,
+        f"Cayley's rotation: {abs(laws.cayley_growth(200) - 1.0):.0e}",
+    )
+    yield Entry(
+        "Cholesky factor of a squared-exponential correlation, 150 points on a line",
+        "indefinite by rounding",
+        "finer than about 0.25 autocorrelation distances",
+        f"finer than {laws.finest_factorised():.2f}",
+        "`SamplerError`, which names the exact sampler",
+    )
+    chi_square, bonett = laws.coverages()
+    yield Entry(
+        "chi-square interval of a variance, lognormal values with COV 0.5, n = 100",
+        "a 95 % interval that is none",
+        "about 73 %",
+        f"{chi_square:.0%}; Bonett's {bonett:.0%}",
+        "Bonett's interval is the one in use",
+    )
+
+
+def guard_entry():
+    """Return the line of the whole runs."""
+    stopped = sum(is_stopped(simulate(settings)) for settings in UNSTABLE)
+    return Entry(
+        f"{len(UNSTABLE)} unstable slopes, run past the scene rules",
+        "explosion, energy from nowhere, damping",
+        "none ends as a normal record",
+        f"{stopped} stopped",
+        "energy ledger (2 %), P-wave speed, finite places",
+    )
+
+
+def entries(block, bar):
+    """Yield the whole atlas."""
+    yield from time_step_entries(block, bar)
+    yield particle_entry()
+    yield crossing_entry()
+    yield from map(fracture_entry, BASES)
+    yield from space_entries()
+    yield from law_entries()
+    yield guard_entry()
+
+
+def main():
+    block, bar = sweep(flying_block, BASES, SCHEMES), sweep(crossing_bar, BASES, SCHEMES)
+    print("| where it fails | symptom | expected | measured | guard |")
+    print("|---|---|---|---|---|")
+    for entry in entries(block, bar):
+        print("| " + " | ".join(entry) + " |", flush=True)
+    draw({"Free block that flies over four cells": block, "Bar whose end swings by 1.2 cells": bar}, sys.argv[1])
+
+
+if __name__ == "__main__":
+    main()
