@@ -2,6 +2,7 @@
 
 import math
 
+from campaign import discretisation
 from campaign.running.progress import duration
 from campaign.scene import Geometry, Scene
 
@@ -16,11 +17,12 @@ def cost(scene: Scene) -> str:
     particles = particle_count(scene)
     steps = scene.numerics.end_time / time_step(scene)
     seconds = particles * steps / PARTICLE_STEPS
-    total = seconds * scene.campaign.realizations
+    wanted = scene.campaign
+    total = seconds * (wanted.realizations + discretisation.COST * wanted.discretisation_pairs)
     return (
         f"about {particles:,} particles and {steps:,.0f} steps: at most {duration(seconds)} a realization and "
-        f"{total / 3600:.1f} core-hours for all {scene.campaign.realizations} at {PARTICLE_STEPS / 1e6:g} million "
-        "particle-steps a second"
+        f"{total / 3600:.1f} core-hours for all {wanted.realizations}, with {wanted.discretisation_pairs} repeated at "
+        f"half the cell, at {PARTICLE_STEPS / 1e6:g} million particle-steps a second"
     )
 
 
