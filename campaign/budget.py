@@ -153,12 +153,17 @@ def _comparison(results: Results) -> str:
 
 
 def _beyond_sampling(results: Results) -> str:
-    if "discretisation_error" not in results.data:
+    found = results.discretisation
+    if found is None or found.interval.n == 0:
         return "These are sampling errors; the errors of the mesh and of the model are not among them."
-    error = float(results.data["discretisation_error"])
     return (
-        f"These are sampling errors; the mesh adds about {error:.2f} m to that of the mean, the model an unknown one."
+        f"These are sampling errors; the mesh adds about {found.error:.2f} m to that of the mean (half the cell "
+        f"changes it by {_change(found.interval)}), the model an unknown one."
     )
+
+
+def _change(mean: Interval) -> str:
+    return f"{mean.estimate:+.2f} ± {mean.half_width:.2f} m" if mean.is_known else f"{mean.estimate:+.2f} m"
 
 
 def _sampling(results: Results) -> list[Row]:
@@ -190,11 +195,15 @@ def _failures(results: Results) -> list[Row]:
 
 
 def _discretisation(results: Results) -> Row:
-    if "discretisation_error" not in results.data:
-        remedy = "repeat the campaign with half the cell and compare"
+    found = results.discretisation
+    if found is None:
+        remedy = "give campaign.discretisation_pairs, or repeat the campaign with half the cell and compare"
         return Row("Discretisation", "mean run-out", NOT_ESTIMATED, remedy, "")
-    error = float(results.data["discretisation_error"])
-    return Row("Discretisation", "mean run-out", f"{error:.2f} m", "", "")
+    change, name = found.interval, f"mean run-out, by what cells of {found.cell / 2:g} m change"
+    if change.n == 0:
+        return Row("Discretisation", name, NOT_ESTIMATED, "no pair of run-outs counts", "0")
+    bounds = f"{change.lower:+.2f} to {change.upper:+.2f} m" if change.is_known else "not enough pairs"
+    return Row("Discretisation", name, f"{found.error:.2f} m ({change.estimate:+.2f} m)", bounds, str(change.n))
 
 
 def _energy(results: Results) -> Row:

@@ -98,6 +98,19 @@ def _replay(options: argparse.Namespace) -> ExitCode:
     return ExitCode.DONE
 
 
+def _tradeoff(options: argparse.Namespace) -> ExitCode:
+    from campaign.scene import SceneError, load_scene
+    from campaign.tradeoff_report import write_tradeoff
+
+    try:
+        scene = load_scene(options.scene, _overrides(options))
+    except SceneError as error:
+        raise RefusalError(str(error)) from error
+    out = options.out or Path(f"tradeoff-{scene.name}")
+    write_tradeoff(scene, 60 * options.budget, out)
+    return ExitCode.DONE
+
+
 def _scenes(_options: argparse.Namespace) -> ExitCode:
     from campaign.scene import builtin_scenes
 
@@ -139,6 +152,12 @@ def _parser() -> argparse.ArgumentParser:
     replay.add_argument("directory", metavar="DIR", type=Path)
     replay.add_argument("realization", metavar="K", type=int, help="its id; -1 is the deterministic run")
     replay.set_defaults(command=_replay)
+
+    tradeoff = commands.add_parser("tradeoff", help="speed against accuracy: chart, table, recommended setting")
+    _add_scene(tradeoff)
+    tradeoff.add_argument("--out", metavar="DIR", type=Path, help="directory of the results (default: tradeoff-NAME)")
+    tradeoff.add_argument("--budget", metavar="MINUTES", type=float, default=10.0, help="CPU time it may take")
+    tradeoff.set_defaults(command=_tradeoff, realizations=3)
 
     scenes = commands.add_parser("scenes", help="list the built-in scenes")
     scenes.set_defaults(command=_scenes)

@@ -2,6 +2,7 @@
 
 import math
 
+from campaign import discretisation
 from campaign.running.progress import duration
 from campaign.scene import Geometry, Scene
 
@@ -15,13 +16,19 @@ def cost(scene: Scene) -> str:
     """Return the estimated size and time of a scene's campaign; at most, since slides rest before the end."""
     particles = particle_count(scene)
     steps = scene.numerics.end_time / time_step(scene)
-    seconds = particles * steps / PARTICLE_STEPS
-    total = seconds * scene.campaign.realizations
+    seconds = realization_seconds(scene)
+    wanted = scene.campaign
+    total = seconds * (wanted.realizations + discretisation.COST * wanted.discretisation_pairs)
     return (
         f"about {particles:,} particles and {steps:,.0f} steps: at most {duration(seconds)} a realization and "
-        f"{total / 3600:.1f} core-hours for all {scene.campaign.realizations} at {PARTICLE_STEPS / 1e6:g} million "
-        "particle-steps a second"
+        f"{total / 3600:.1f} core-hours for all {wanted.realizations}, with {wanted.discretisation_pairs} repeated at "
+        f"half the cell, at {PARTICLE_STEPS / 1e6:g} million particle-steps a second"
     )
+
+
+def realization_seconds(scene: Scene) -> float:
+    """Return the estimated CPU time of a realization that moves until the end [s]."""
+    return particle_count(scene) * scene.numerics.end_time / time_step(scene) / PARTICLE_STEPS
 
 
 def particle_count(scene: Scene) -> int:

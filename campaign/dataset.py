@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from campaign.convergence import History
+from campaign.discretisation import METHOD, Discretisation
 from campaign.files import publish, temporary_name
 from campaign.record import FAILED, QUANTITIES, Record, Status
 from campaign.running.model import Setup
@@ -26,7 +27,12 @@ Variables = dict[str, xr.Variable]
 
 
 def build(
-    setup: Setup, records: Sequence[Record], baseline: Record, history: History, about: Mapping[str, Any]
+    setup: Setup,
+    records: Sequence[Record],
+    baseline: Record,
+    history: History,
+    about: Mapping[str, Any],
+    discretisation: Discretisation | None = None,
 ) -> xr.Dataset:
     """Assemble the dataset.
 
@@ -42,8 +48,12 @@ def build(
         The estimates at the checkpoints of these realizations.
     about
         Global attributes.
+    discretisation
+        What half the cell changes, where that is known.
     """
     variables = _per_realization(records) | _deterministic(baseline) | _influence(records) | _convergence(history)
+    if discretisation is not None:
+        variables |= _discretisation(discretisation)
     attributes = {"Conventions": "CF-1.11", "n_particles": setup.n_particles, "toe_x": setup.toe_x}
     return xr.Dataset(variables, _coordinates(setup, records, history), attributes | dict(about))
 
@@ -137,6 +147,22 @@ def _convergence(history: History) -> Variables:
         "exceedance": _variable("checkpoint", history.exceedance, "1", "share beyond the deterministic final run-out"),
         "exceedance_ci": _variable(bounds, history.exceedance_ci, "1", "confidence interval of exceedance (Wilson)"),
         "predicted_n": _variable("checkpoint", history.predicted_n, "1", "realizations expected to satisfy the rule"),
+    }
+
+
+def _discretisation(found: Discretisation) -> Variables:
+    change = "final_runout with half the cell minus that with the cell"
+    error = _variable((), found.error, "m", "estimated size of the discretisation error of mean")
+    error.attrs |= {"cell": found.cell, "half_cell": found.cell / 2, "pairs": found.interval.n, "comment": METHOD}
+    return {
+        "pair": _variable("pair", range(len(found.differences)), "1", "realization repeated with half the cell", "i4"),
+        "discretisation_error": error,
+        "discretisation_change": _variable((), found.interval.estimate, "m", f"mean over pairs of {change}"),
+        "discretisation_change_ci": _variable(
+            "bound", found.interval[1:3], "m", "confidence interval of discretisation_change (Student t)"
+        ),
+        "paired_difference": _variable("pair", found.differences, "m", change),
+        "deterministic_paired_difference": _variable((), found.deterministic, "m", f"{change}, with mean strengths"),
     }
 
 

@@ -6,13 +6,14 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from campaign import discretisation
 from campaign.exit_codes import RefusalError
 from campaign.files import write_atomically
 from campaign.provenance import git_describe, machine, realization_hash, source_hashes, versions
 from campaign.scene import Scene, differences
 
 NAME = "manifest.json"
-OWN = {"lock", "records", "packs", "attempts"}
+OWN = {"lock", "records", "packs", "attempts", discretisation.DIRECTORY}
 """What a campaign that was killed before its manifest was written may leave."""
 
 Manifest = dict[str, Any]

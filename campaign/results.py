@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from campaign.discretisation import Discretisation
 from campaign.exit_codes import RefusalError
 from campaign.record import FAILED, USABLE, Status
 from campaign.scene import Scene, SceneError, load_scene
@@ -68,6 +69,14 @@ class Results:
         """Final run-out with mean strengths in m; NaN if that run failed."""
         failed = int(self.data["deterministic_status"]) in FAILED
         return np.nan if failed else float(self.data["deterministic_final_runout"])
+
+    @property
+    def discretisation(self) -> Discretisation | None:
+        """What half the cell changes; None where the campaign does not say."""
+        if "paired_difference" not in self.data:
+            return None
+        differences, deterministic = self.data["paired_difference"], self.data["deterministic_paired_difference"]
+        return Discretisation(self.scene.numerics.cell, differences.values, float(deterministic), self.confidence)
 
     def has_status(self, statuses: Iterable[Status]) -> NDArray[np.bool_]:
         """Whether a realization ended in one of these ways, (realization,)."""

@@ -22,11 +22,13 @@ from campaign.fields.samplers import SamplerError
 from campaign.running import launcher
 from campaign.running.attempts import Attempts
 from campaign.running.dispatcher import Dispatcher
+from campaign.running.level import Level
 from campaign.running.model import Model
 from campaign.running.progress import Progress
+from campaign.running.repetition import Repetition, repeat_with_half_cell
 from campaign.running.signals import StopRequest, listening
 from campaign.running.site import Draw, Site
-from campaign.running.tally import Report
+from campaign.running.tally import Report, Tally
 from campaign.running.walltime import job_end
 from campaign.running.worker import LAST_CALL, Interrupt, Worker
 from campaign.scene import Scene, SceneError
@@ -42,10 +44,11 @@ REFUSALS = (RefusalError, SceneError, SamplerError)
 
 
 class Order(NamedTuple):
-    """What rank 0 tells every rank at the start."""
+    """What rank 0 tells every rank before it hands out realizations."""
 
     setup: Any
-    directory: Path
+    home: Path  # of the campaign: the sampler's
+    directory: Path  # of the records
     timeout: float
     job_end: float
 
@@ -94,27 +97,47 @@ def run(
 def _lead(comm: MPI.Comm, site: Site, model: Model, stop: StopRequest, draw: Draw | None) -> ExitCode:
     try:
         setup = model.prepare(site.scene)
-        order = Order(setup, site.directory, site.scene.campaign.realization_timeout, job_end())
-        sampler = model.build_sampler(setup, site.directory)
-        tally = site.tally(setup)
+        desk = Desk(comm, site.directory, model, model.build_sampler(setup, site.directory), stop, job_end())
+        site.level.give_up_crashed(setup)
+        tally = site.level.tally()
     except REFUSALS as refusal:
         return _refuse(comm, refusal)
     site.announce(comm.size, tally)
-    progress = Progress(tally)
-    dispatcher = Dispatcher(tally, _obstacle(stop, order.job_end))
-    _share(comm, order)
-    first = [dispatcher.exchange(Report(None)) for _ in range(comm.size)]
-    service = Service(comm, first, dispatcher.exchange, lambda: dispatcher.observe(progress.tick))
-    worker = _worker(comm, order, model, sampler, stop, service.poll)
-    _work(worker, comm.scatter(first), dispatcher.exchange)
-    service.finish()
-    return _agree(comm, site.conclude(setup, tally, dispatcher.stopped, draw))
+    stopped = desk.hand_out(site.level, setup, tally)
+    repeated = Repetition(None, stopped)
+    if tally.size is not None:
+        repeated = repeat_with_half_cell(site, tally, model, desk.hand_out, stopped)
+    _share(comm, None)
+    return _agree(comm, site.conclude(setup, tally, *repeated, draw))
+
+
+class Desk(NamedTuple):
+    """Rank 0's means of handing out realizations."""
+
+    comm: MPI.Comm
+    home: Path
+    model: Model
+    sampler: Any
+    stop: StopRequest
+    job_end: float
+
+    def hand_out(self, level: Level, setup: Any, tally: Tally) -> str:
+        """Have all ranks compute what `tally` lacks; returns why that ended early, "" if it did not."""
+        order = Order(setup, self.home, level.directory, level.scene.campaign.realization_timeout, self.job_end)
+        progress = Progress(tally)
+        dispatcher = Dispatcher(tally, _obstacle(self.stop, self.job_end))
+        _share(self.comm, order)
+        first = [dispatcher.exchange(Report(None)) for _ in range(self.comm.size)]
+        service = Service(self.comm, first, dispatcher.exchange, lambda: dispatcher.observe(progress.tick))
+        worker = _worker(self.comm, order, self.model, self.sampler, self.stop, service.poll)
+        _work(worker, self.comm.scatter(first), dispatcher.exchange)
+        service.finish()
+        return dispatcher.stopped
 
 
 def _follow(comm: MPI.Comm, model: Model, stop: StopRequest) -> ExitCode:
-    order: Order | None = _share(comm, None)
-    if order is not None:
-        sampler = model.build_sampler(order.setup, order.directory)
+    while (order := _share(comm, None)) is not None:
+        sampler = model.build_sampler(order.setup, order.home)
         worker = _worker(comm, order, model, sampler, stop, lambda: None)
         _work(worker, comm.scatter(None), lambda report: _ask(comm, report))
     return _agree(comm, None)

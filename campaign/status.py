@@ -4,7 +4,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from campaign import manifest
+from campaign import discretisation, manifest
 from campaign.convergence import Rule
 from campaign.record import DamagedRecordError
 from campaign.running.lock import DirectoryLock
@@ -28,6 +28,8 @@ def status(directory: Path) -> str:
     tally, damaged = _tally(directory, about["campaign"])
     lines = [f"{about['title']}: {_state(directory, about)}", f"  {state_line(tally)}"]
     lines += [f"  {sentence}" for sentence in damaged]
+    if repeated := len(RecordStore(directory / discretisation.DIRECTORY).finished()):
+        lines.append(f"  {repeated} repeated with half the cell, for the discretisation error")
     results = directory / "results.nc"
     return "\n".join([*lines, f"  {results}" if results.exists() else "  no results.nc yet"])
 

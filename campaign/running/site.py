@@ -4,19 +4,18 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
 
-from campaign import dataset, manifest
+from campaign import dataset, discretisation, manifest
+from campaign.discretisation import Discretisation
 from campaign.exit_codes import ExitCode, RefusalError
 from campaign.provenance import attributes
-from campaign.record import Record, Status, missing_values
-from campaign.running.attempts import Attempts
+from campaign.running.level import Level
 from campaign.running.lock import DirectoryLock
-from campaign.running.model import Setup, sizes
+from campaign.running.model import Setup
 from campaign.running.progress import say
 from campaign.running.summary import summary
-from campaign.running.tally import Tally, outcome_of, tally_of
+from campaign.running.tally import Tally
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
-from campaign.store import RecordStore
 
 Draw: TypeAlias = Callable[[Path], Path]
 """Makes the report of a results directory and returns its page."""
@@ -34,8 +33,7 @@ class Site:
     def __init__(self, scene: Scene, directory: Path, ranks: int, allow_drift: bool) -> None:
         self.scene = scene
         self.directory = directory
-        self.store = RecordStore(directory)
-        self.attempts = Attempts(directory)
+        self.level = Level(scene, directory)
         self._lock = DirectoryLock(directory)
         try:
             self._open(ranks, allow_drift)
@@ -47,9 +45,7 @@ class Site:
         notes = [self._lock.acquire()]
         try:
             notes += manifest.begin(self.directory, self.scene, ranks, allow_drift)
-            self.store.create()
-            self.attempts.create()
-            notes += self.store.recover()
+            notes += self.level.open()
         except BaseException:
             self.close()
             raise
@@ -65,25 +61,28 @@ class Site:
         """Give the directory free."""
         self._lock.release()
 
-    def tally(self, setup: Setup) -> Tally:
-        """Return the account of what earlier starts have finished or given up."""
-        finished = self.store.finished()
-        for realization, reason in self.attempts.given_up().items():
-            if realization not in finished:
-                say(f"Realization {realization} is recorded as crashed: it {reason}.")
-                self.store.write(Record(realization, Status.crashed, reason, missing_values(sizes(setup))))
-        tally = tally_of(self.scene)
-        for record in self.store.read_all():
-            tally.add(outcome_of(record))
-        return tally
+    def conclude(self, setup: Setup, tally: Tally, repeated: Tally | None, stopped: str, draw: Draw | None) -> ExitCode:
+        """Write the results, draw them, say how the campaign ended, and return its exit code.
 
-    def conclude(self, setup: Setup, tally: Tally, stopped: str, draw: Draw | None) -> ExitCode:
-        """Write the results, draw them, say how the campaign ended, and return its exit code."""
+        Parameters
+        ----------
+        setup, tally
+            Of the campaign.
+        repeated
+            The account of its realizations with half the cell.
+        stopped
+            Why not all was done, "" if it was.
+        draw
+            Makes the report.
+        """
         code, verdict = _end(tally, stopped)
-        say(summary(self.scene, tally, verdict))
+        found = None
+        if repeated is not None and repeated.size is not None:
+            found = discretisation.estimate(self.scene, tally, repeated)
+        say(summary(self.scene, tally, verdict, found))
         try:
-            self.store.pack()
-            self._write_results(setup, tally, verdict)
+            self.level.store.pack()
+            self._write_results(setup, tally, verdict, found)
             manifest.end(self.directory, code, verdict)
         except OSError as error:
             say(f"The results cannot be written ({error}). All records are kept: make room and repeat the command.")
@@ -97,12 +96,13 @@ class Site:
             say("Give the same command again to continue.")
         return code
 
-    def _write_results(self, setup: Setup, tally: Tally, verdict: str) -> None:
+    def _write_results(self, setup: Setup, tally: Tally, verdict: str, found: Discretisation | None) -> None:
         if tally.prefix == 0:
             return
-        records = [self.store.read(realization) for realization in range(tally.prefix)]
+        store = self.level.store
+        records = [store.read(realization) for realization in range(tally.prefix)]
         about = attributes(self.scene, manifest.read(self.directory), verdict)
-        result = dataset.build(setup, records, self.store.read(BASELINE), tally.history(), about)
+        result = dataset.build(setup, records, store.read(BASELINE), tally.history(), about, found)
         dataset.write(result, self.directory / "results.nc")
 
 
@@ -114,7 +114,7 @@ def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:
             f"{failed} of {tally.prefix} realizations failed, more than the {limit:g} % of max_failed_fraction",
         )
     verdict = tally.history().verdict if tally.prefix else "no result yet"
-    if tally.size is None:
+    if tally.size is None or stopped:
         return ExitCode.RESUMABLE, f"stopped early ({stopped}); {verdict}"
     if tally.history().converged_at is None:
         return ExitCode.DONE, f"stopped at the maximum of {tally.maximum} realizations; {verdict}"

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from campaign.discretisation import Discretisation
 from campaign.doubts import doubts
 from campaign.record import FAILED, Status
 from campaign.running.progress import mean_text, std_text
@@ -10,11 +11,13 @@ from campaign.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.statistics import failure_bounds, mean_interval, proportion_interval, std_interval
 
+NOT_ESTIMATED = "not estimated by this campaign: give campaign.discretisation_pairs, or repeat it with half the cell"
 
-def summary(scene: Scene, tally: Tally, verdict: str) -> str:
+
+def summary(scene: Scene, tally: Tally, verdict: str, discretisation: Discretisation | None) -> str:
     """Return the campaign's result and its error budget as text."""
-    lines = ["", f"{scene.title}: {verdict}", *_outcomes(tally), *_answer(tally), *_error_budget(scene, tally)]
-    return "\n".join(lines)
+    budget = _error_budget(scene, tally, discretisation)
+    return "\n".join(["", f"{scene.title}: {verdict}", *_outcomes(tally), *_answer(tally), *budget])
 
 
 def _outcomes(tally: Tally) -> list[str]:
@@ -49,11 +52,11 @@ def _exceedance(usable: np.ndarray[tuple[int], np.dtype[np.float64]], tally: Tal
     return text
 
 
-def _error_budget(scene: Scene, tally: Tally) -> list[str]:
+def _error_budget(scene: Scene, tally: Tally, discretisation: Discretisation | None) -> list[str]:
     return [
         f"Error budget at {100 * tally.rule.confidence:g} % confidence",
         f"  sampling       {_sampling(tally)}",
-        "  discretisation not estimated by this campaign: repeat it with half the cell and compare",
+        f"  discretisation {discretisation or NOT_ESTIMATED}",
         f"  modelling      {_choices(scene)}",
     ]
 

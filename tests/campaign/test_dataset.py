@@ -10,6 +10,7 @@ from records import SIZES, make_record
 
 from campaign import dataset
 from campaign.convergence import Rule, history
+from campaign.discretisation import Discretisation
 from campaign.record import QUANTITIES, Status
 from campaign.seeds import BASELINE
 
@@ -32,7 +33,9 @@ def path(tmp_path_factory):
     runouts = np.array([record.values["final_runout"] for record in RECORDS])
     usable = np.array([status is Status.slid for status in STATUSES])
     estimates = history(runouts, usable, Rule(0.01, 0.1, 0.95, 20, 25), 10.0)
-    built = dataset.build(SETUP, RECORDS, make_record(BASELINE), estimates, {"seed": "7", "scene": "title = 'é'\n"})
+    pairs = Discretisation(1.0, np.array([-0.5, np.nan, -1.5]), 0.25, 0.95)
+    about = {"seed": "7", "scene": "title = 'é'\n"}
+    built = dataset.build(SETUP, RECORDS, make_record(BASELINE), estimates, about, pairs)
     target = tmp_path_factory.mktemp("results") / "results.nc"
     dataset.write(built, target)
     return target
@@ -85,6 +88,14 @@ def test_status_flags_follow_cf(opened):
 def test_checkpoints_are_labelled_by_realizations(opened):
     np.testing.assert_array_equal(opened.checkpoint, [20, 45, 70])
     assert opened.n.sel(checkpoint=45) == 43
+
+
+def test_the_discretisation_error_comes_with_its_pairs(opened):
+    error = opened.discretisation_error
+    assert (float(error), error.attrs["units"], error.attrs["half_cell"], error.attrs["pairs"]) == (1.0, "m", 0.5, 2)
+    np.testing.assert_array_equal(opened.paired_difference, [-0.5, np.nan, -1.5])
+    assert float(opened.discretisation_change) == -1.0
+    assert opened.discretisation_change_ci.dims == ("bound",)
 
 
 def test_attributes(opened):

@@ -155,11 +155,18 @@ def test_convergence_is_told(tmp_path, setup):
 
 
 def test_a_discretisation_error_is_used_where_it_is_known(campaign):
+    """Student's t of 95 % and 2 degrees of freedom is 4.303: 1 +- 4.303 0.5 / sqrt(3)."""
     results = read_results(campaign)
     assert "errors of the mesh and of the model are not among them" in budget.answer(results)
-    known = Results(results.data.assign(discretisation_error=((), 0.375, {"units": "m"})), results.scene)
-    assert "the mesh adds about 0.38 m" in budget.answer(known)
-    assert budget.Row("Discretisation", "mean run-out", "0.38 m", "", "") in budget.error_budget(known)
+    pairs = {
+        "paired_difference": ("pair", [0.5, 1.0, np.nan, 1.5]),
+        "deterministic_paired_difference": ((), 0.7),
+    }
+    known = Results(results.data.assign(pairs), results.scene)
+    assert "the mesh adds about 1.00 m to that of the mean (half the cell changes it by +1.00 ± 1.24 m)" in (
+        budget.answer(known)
+    )
+    assert budget.error_budget(known)[-2][2:] == ("1.00 m (+1.00 m)", "-0.24 to +2.24 m", "3")
 
 
 def test_without_a_simulation_the_other_figures_are_drawn(campaign, monkeypatch):

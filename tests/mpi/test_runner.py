@@ -233,6 +233,55 @@ def test_nothing_is_begun_that_the_job_has_no_time_for(alone, tmp_path, monkeypa
     assert_same(dataset(tmp_path / "out"), alone)
 
 
+PAIRS = "campaign.discretisation_pairs=6"
+
+
+@pytest.fixture(scope="module")
+def paired(tmp_path_factory):
+    directory = tmp_path_factory.mktemp("paired") / "out"
+    code, output = campaign(directory, 20, 1, [PAIRS])
+    assert code == 0, output
+    return dataset(directory)
+
+
+def test_half_the_cell_tells_the_discretisation_error(paired):
+    """The stand-in's run-outs fall by 2 (1 + k / 10) for each metre of cell, which is 1 m: 1 + k / 10 at half of it."""
+    np.testing.assert_allclose(paired.paired_difference, [1.0, 1.1, 1.2, 1.3, 1.4, 1.5])
+    assert float(paired.discretisation_error) == pytest.approx(1.25)
+    assert float(paired.deterministic_paired_difference) == pytest.approx(0.9)
+
+
+def test_the_number_of_ranks_leaves_no_trace_in_the_repeated(paired, tmp_path):
+    code, output = campaign(tmp_path / "out", 20, 3, [PAIRS], seconds=0.01)
+    assert code == 0, output
+    assert "half the cell changes the mean by +1.25 m" in output
+    assert_same(dataset(tmp_path / "out"), paired)
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+def test_an_end_among_the_repeated_leaves_no_trace(paired, tmp_path, number):
+    directory = tmp_path / "out"
+    process = start(directory, 20, 2, [PAIRS], seconds=0.1)
+    wait_for_records(directory / "half-cell", 1)
+    os.killpg(process.pid, number)
+    output, _ = process.communicate(timeout=20)
+    if number == signal.SIGTERM:
+        assert process.returncode == 75, output
+        assert "discretisation_error" not in dataset(directory)
+    assert len(list(directory.glob("half-cell/records/realization-*.h5"))) < 6
+    code, output = campaign(directory, 20, 3, [PAIRS])
+    assert code == 0, output
+    assert_same(dataset(directory), paired)
+
+
+def test_what_failed_is_not_repeated(tmp_path):
+    code, output = campaign(tmp_path / "out", 20, overrides=[PAIRS], **{"raise": 2})
+    assert code == 0, output
+    assert np.isnan(dataset(tmp_path / "out").paired_difference).sum() == 1
+    assert "from 5 pairs" in output
+    assert not (tmp_path / "out" / "half-cell" / "records" / "realization-000002.h5").exists()
+
+
 @pytest.mark.parametrize("variable", ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"])
 def test_a_launcher_of_another_mpi_is_found_out(tmp_path, variable):
     environment = {

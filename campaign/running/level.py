@@ -1,0 +1,42 @@
+"""The realizations of a campaign on one mesh: the scene's own, or half its cell for the discretisation error."""
+
+from pathlib import Path
+
+from campaign.record import Record, Status, missing_values
+from campaign.running.attempts import Attempts
+from campaign.running.model import Setup, sizes
+from campaign.running.progress import say
+from campaign.running.tally import Tally, outcome_of, tally_of
+from campaign.scene import Scene
+from campaign.store import RecordStore
+
+
+class Level:
+    """The records of `scene`'s realizations, kept in `directory`."""
+
+    def __init__(self, scene: Scene, directory: Path) -> None:
+        self.scene = scene
+        self.directory = directory
+        self.store = RecordStore(directory)
+        self._attempts = Attempts(directory)
+
+    def open(self) -> list[str]:
+        """Make ready for work, clearing up after a kill; returns sentences worth a look."""
+        self.store.create()
+        self._attempts.create()
+        return self.store.recover()
+
+    def give_up_crashed(self, setup: Setup) -> None:
+        """Write records for the realizations that took the process down too often."""
+        finished = self.store.finished()
+        for realization, reason in self._attempts.given_up().items():
+            if realization not in finished:
+                say(f"Realization {realization} is recorded as crashed: it {reason}.")
+                self.store.write(Record(realization, Status.crashed, reason, missing_values(sizes(setup))))
+
+    def tally(self) -> Tally:
+        """Return the account of what earlier starts have finished or given up."""
+        tally = tally_of(self.scene)
+        for record in self.store.read_all():
+            tally.add(outcome_of(record))
+        return tally

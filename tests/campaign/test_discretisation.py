@@ -1,0 +1,73 @@
+"""The discretisation error is what half the cell changes in the same realizations."""
+
+import numpy as np
+import pytest
+from small_campaign import small_scene
+
+from campaign.discretisation import Discretisation, estimate, with_half_cell
+from campaign.realization import build_sampler, prepare
+from campaign.record import Status
+from campaign.running.summary import summary
+from campaign.running.tally import Outcome, tally_of
+from campaign.seeds import BASELINE
+
+
+def account(scene, runouts, **statuses):
+    tally = tally_of(scene)
+    for k, runout in enumerate(runouts, start=BASELINE):
+        tally.add(Outcome(k, statuses.get(f"_{k}", Status.slid), runout, 1.0))
+    return tally
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return small_scene("campaign.realizations=12")
+
+
+def test_half_the_cell_halves_the_rate_of_softening_and_keeps_the_rest(scene):
+    half = with_half_cell(scene, 3)
+    assert half.numerics == scene.numerics.model_copy(update={"cell": 1.0})
+    assert half.soil.softening.rate_at(half.numerics.cell) == scene.soil.softening.rate_at(scene.numerics.cell) / 2
+    assert (half.geometry, half.soil, half.field, half.campaign.seed) == (
+        scene.geometry,
+        scene.soil,
+        scene.field,
+        scene.campaign.seed,
+    )
+
+
+def test_a_realization_is_the_same_ground_on_both_meshes(scene, tmp_path):
+    samplers = [build_sampler(prepare(each), tmp_path) for each in (scene, with_half_cell(scene, 3))]
+    here, there = (sampler.draw(scene.campaign.seed, 2) for sampler in samplers)
+    assert here.grid == there.grid
+    np.testing.assert_array_equal(here.cohesion, there.cohesion)
+    np.testing.assert_array_equal(here.friction_angle, there.friction_angle)
+
+
+def test_only_pairs_of_which_both_count_enter(scene):
+    coarse = account(scene, [9.0, 10.0, 11.0, 12.0, 13.0], _1=Status.crashed)
+    fine = account(with_half_cell(scene, 4), [9.5, 11.0, 12.0, 14.0, 0.0], _3=Status.no_slide)
+    found = estimate(scene, coarse, fine)
+    np.testing.assert_array_equal(found.differences, [1.0, np.nan, 2.0, np.nan])
+    assert (found.error, found.interval.n, found.deterministic) == (1.5, 2, 0.5)
+
+
+def test_the_estimate_is_a_size_and_the_change_has_a_sign():
+    """Student's t of 95 % and 3 degrees of freedom is 3.182: -1 +- 3.182 sqrt(1/15) = -1.82 to -0.18 m."""
+    found = Discretisation(1.0, np.array([-0.4, -1.6, -0.8, -1.2]), -0.5, 0.95)
+    assert str(found) == "1.00 m; half the cell changes the mean by -1.00 m (-1.82 to -0.18 m), from 4 pairs"
+
+
+@pytest.mark.parametrize(
+    ("differences", "said"),
+    [([], "not estimated: no pair"), ([np.nan], "not estimated: no pair"), ([0.5], "by +0.50 m, from 1 pair")],
+)
+def test_too_few_pairs_are_no_interval(differences, said):
+    assert said in str(Discretisation(1.0, np.array(differences, dtype=float), 0.0, 0.95))
+
+
+def test_the_summary_tells_it_or_how_to_get_it(scene):
+    tally = account(scene, 9.0 + 0.1 * np.arange(13))
+    found = Discretisation(2.0, np.array([0.4, 0.6]), 0.5, 0.95)
+    assert "  discretisation 0.50 m; half the cell" in summary(scene, tally, "done", found)
+    assert "give campaign.discretisation_pairs" in summary(scene, tally, "done", None)
