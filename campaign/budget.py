@@ -219,6 +219,9 @@ def _softening(results: Results) -> str:
     softening, cell = results.scene.soil.softening, results.scene.numerics.cell
     if softening.law == "none":
         return "none"
+    if softening.internal_length is not None:
+        average = f"plastic strain averaged over {softening.internal_length:g} m"
+        return f"{softening.law} with {average}, rate {softening.rate:g}"
     return (
         f"{softening.law} with plastic strain, rate {softening.rate_at(cell):g} at this cell, in proportion to its "
         f"size ({softening.rate:g} at {softening.reference_cell:g} m)"

@@ -20,6 +20,7 @@ from solver.gravity import NotSettledError, in_situ_state
 from solver.grid import whole_cells
 from solver.march import History, March, Outcome, run
 from solver.model import STANDARD_GRAVITY, Model, make_soil
+from solver.nonlocal_softening import coarse_rate_factor
 from solver.particles import Particles, copy_particles
 from solver.slide import Slide
 from solver.step import LOCKING, STRESS_UPDATES, Scheme
@@ -76,6 +77,9 @@ def surface_of(geometry: Geometry) -> Surface:
 def model_of(scene: Scene) -> Model:
     """Return the solver's view of a scene."""
     soil, numerics = scene.soil, scene.numerics
+    half_length = half_length_in_cells(numerics.basis, numerics.particles_per_cell)
+    internal_length = soil.softening.internal_length or 0.0
+    rate = soil.softening.rate_at(numerics.cell)
     return Model(
         surface=surface_of(scene.geometry),
         density=soil.unit_weight / STANDARD_GRAVITY,
@@ -86,12 +90,13 @@ def model_of(scene: Scene) -> Model:
             soil.dilation_angle,
             soil.cohesion.residual,
             soil.friction_angle.residual,
-            soil.softening.rate_at(numerics.cell),
+            rate * coarse_rate_factor(internal_length, numerics.cell, half_length),
             soil.softening.law == "linear",
+            internal_length,
         ),
         cell_size=numerics.cell,
         particles_per_cell=numerics.particles_per_cell,
-        half_length=half_length_in_cells(numerics.basis, numerics.particles_per_cell),
+        half_length=half_length,
         scheme=Scheme(STRESS_UPDATES[numerics.stress_update], numerics.flip, 0.0, LOCKING[numerics.locking]),
         courant=numerics.courant,
         ramp_time=numerics.ramp_time if numerics.gravity == "ramp" else 0.0,

@@ -77,12 +77,13 @@ class Softening(Section):
     law: Literal["exponential", "linear", "none"]
     rate: PositiveNumber | None = None
     reference_cell: PositiveLength | None = None
+    internal_length: PositiveLength | None = None
 
     def rate_at(self, cell: float) -> float:
         """Return the softening rate for cells of `cell` m: local softening needs it in proportion to the cell."""
-        if self.law == "none" or self.rate is None or self.reference_cell is None:
+        if self.law == "none" or self.rate is None:
             return 0.0
-        return self.rate * cell / self.reference_cell
+        return self.rate if self.reference_cell is None else self.rate * cell / self.reference_cell
 
 
 class Soil(Section):

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 PADDING = 2  # layers of nodes beyond a wall: GIMP weights reach one, a particle pressed into the wall a second
+NO_SMOOTHING = np.ones(1)
 SMALLEST_MASS = 1e-12  # kg/m: below it a node carries nothing and 0/0 is avoided
 
 
@@ -29,6 +30,9 @@ class Grid(NamedTuple):
     cell_volume: np.ndarray  # (nodes,) m2; a cell has the number of its lower left node, see ``mean_dilation``
     cell_dilation: np.ndarray  # (nodes,) mean increment of the volume strain
     cell_pressure: np.ndarray  # (nodes,) Pa, mean of (s_xx + s_yy) / 2
+    cell_plastic_strain: np.ndarray  # (nodes,) averaged increment, see ``nonlocal_softening``
+    cell_scratch: np.ndarray  # (nodes,)
+    smoothing: np.ndarray  # (2k + 1,) weights of the average over cells, along one axis
 
 
 def whole_cells(length: float, cell_size: float) -> int:
@@ -36,7 +40,9 @@ def whole_cells(length: float, cell_size: float) -> int:
     return int(np.ceil(length / cell_size - 1e-9))
 
 
-def allocate_grid(width: float, height: float, cell_size: float, half_length: float) -> Grid:
+def allocate_grid(
+    width: float, height: float, cell_size: float, half_length: float, smoothing: np.ndarray = NO_SMOOTHING
+) -> Grid:
     """Return a grid for material between ``0 <= x <= width`` and ``0 <= y <= height``.
 
     Parameters
@@ -47,6 +53,8 @@ def allocate_grid(width: float, height: float, cell_size: float, half_length: fl
         Node spacing in m.
     half_length : float
         Half length of a particle's domain over the cell size (see ``basis``).
+    smoothing : ndarray (2k + 1,)
+        Weights of the average of plastic strain (see ``nonlocal_softening``).
     """
     cells_x = whole_cells(width, cell_size)
     cells_y = whole_cells(height, cell_size)
@@ -76,4 +84,7 @@ def allocate_grid(width: float, height: float, cell_size: float, half_length: fl
         cell_volume=np.zeros(nodes),
         cell_dilation=np.zeros(nodes),
         cell_pressure=np.zeros(nodes),
+        cell_plastic_strain=np.zeros(nodes),
+        cell_scratch=np.zeros(nodes),
+        smoothing=smoothing,
     )

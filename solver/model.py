@@ -7,6 +7,7 @@ from solver.elastic import bulk_modulus, p_wave_speed, shear_modulus
 from solver.geometry import Surface
 from solver.grid import Grid, allocate_grid
 from solver.mohr_coulomb import Soil
+from solver.nonlocal_softening import smoothing_weights
 from solver.slide import PAPER, Slide
 from solver.step import Scheme
 
@@ -37,7 +38,8 @@ class Model(NamedTuple):
     def allocate_grid(self) -> Grid:
         """Return an empty grid for the scene."""
         height = self.surface.top + HEADROOM_IN_CELLS * self.cell_size
-        return allocate_grid(self.surface.width, height, self.cell_size, self.half_length)
+        smoothing = smoothing_weights(self.soil.internal_length, self.cell_size, self.half_length)
+        return allocate_grid(self.surface.width, height, self.cell_size, self.half_length, smoothing)
 
 
 def make_soil(
@@ -48,8 +50,9 @@ def make_soil(
     friction_residual: float,
     softening_rate: float,
     softening_is_linear: bool,
+    internal_length: float = 0.0,
 ) -> Soil:
-    """Return the shared soil properties from engineering constants (Pa and rad)."""
+    """Return the shared soil properties from engineering constants (Pa, rad and m)."""
     return Soil(
         bulk_modulus(young_modulus, poisson_ratio),
         shear_modulus(young_modulus, poisson_ratio),
@@ -58,4 +61,5 @@ def make_soil(
         friction_residual,
         softening_rate,
         softening_is_linear,
+        internal_length,
     )

@@ -32,6 +32,7 @@ class Soil(NamedTuple):
     friction_residual: float  # rad
     softening_rate: float  # per unit plastic strain
     softening_is_linear: bool
+    internal_length: float = 0.0  # m over which plastic strain is averaged (``nonlocal_softening``); 0: local
 
 
 @law

@@ -33,6 +33,7 @@ from solver.mean_dilation import (
     with_cell_pressure,
 )
 from solver.mohr_coulomb import update_stress
+from solver.nonlocal_softening import average_plastic_strain
 from solver.particles import take_block
 from solver.transfer import gradient, interpolate, particle_to_grid, spread_mass, spread_momentum
 
@@ -54,6 +55,7 @@ class Workspace(NamedTuple):
     increments: np.ndarray  # (blocks, 4, BLOCK) the same of all particles, where cells are averaged
     moved_x: np.ndarray  # (n,) m, places at the end of the step
     moved_y: np.ndarray  # (n,) m
+    plastic_strain: np.ndarray  # (n,) at the start of the step, where its increments are averaged
     ledger: np.ndarray  # (2,) J/m: work of the stresses, work of gravity
 
 
@@ -65,6 +67,7 @@ def allocate_workspace(n_particles: int) -> Workspace:
         increments=np.empty((-(-n_particles // BLOCK), 4, BLOCK)),
         moved_x=np.empty(n_particles),
         moved_y=np.empty(n_particles),
+        plastic_strain=np.empty(n_particles),
         ledger=np.zeros(2),
     )
 
@@ -325,9 +328,16 @@ def deform_cells(particles, grid, work, soil, scheme, gravity, dt):
 @kernel
 def deform(particles, grid, work, soil, scheme, gravity, dt):
     """Operations 5 and 6, and 1 of the next step; return whether all are inside."""
+    is_nonlocal = soil.internal_length > 0.0
+    if is_nonlocal:
+        work.plastic_strain[:] = particles.plastic_strain
     if scheme.locking == CELL_AVERAGE:
-        return deform_cells(particles, grid, work, soil, scheme, gravity, dt)
-    return deform_each(particles, grid, work, soil, scheme, gravity, dt)
+        are_all_inside = deform_cells(particles, grid, work, soil, scheme, gravity, dt)
+    else:
+        are_all_inside = deform_each(particles, grid, work, soil, scheme, gravity, dt)
+    if is_nonlocal and are_all_inside:
+        average_plastic_strain(particles, grid, work.plastic_strain)
+    return are_all_inside
 
 
 @kernel

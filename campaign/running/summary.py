@@ -75,6 +75,9 @@ def _choices(scene: Scene) -> str:
     softening, numerics = scene.soil.softening, scene.numerics
     rate = "no softening"
     if softening.law != "none":
-        rate = f"{softening.law} softening, rate {softening.rate} at a cell of {softening.reference_cell} m"
+        scale = f"at a cell of {softening.reference_cell} m"
+        if softening.internal_length is not None:
+            scale = f"over {softening.internal_length} m"
+        rate = f"{softening.law} softening, rate {softening.rate} {scale}"
     gravity, locking = f"gravity {numerics.gravity}", f"locking treatment {numerics.locking}"
     return f"{gravity}; {rate}; {locking}; {scene.field.correlation} correlation"

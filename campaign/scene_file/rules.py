@@ -187,10 +187,18 @@ def _softening_rate(rate: float | None, law: str) -> str | None:
     return None
 
 
-@rule("soil.softening.reference_cell", "soil.softening.law")
-def _softening_reference(reference_cell: float | None, law: str) -> str | None:
-    if reference_cell is None and law != "none":
-        return f'the {law} law needs the cell at which its rate holds; add for instance reference_cell = "0.5 m"'
+@rule("soil.softening.reference_cell", "soil.softening.internal_length", "soil.softening.law")
+def _softening_scale(reference_cell: float | None, internal_length: float | None, law: str) -> str | None:
+    if reference_cell is not None and internal_length is not None:
+        return (
+            "with an internal_length the rate holds for every cell; leave out one of the two: reference_cell for "
+            "softening that is the same on every mesh, internal_length for local softening"
+        )
+    if reference_cell is None and internal_length is None and law != "none":
+        return (
+            f'the {law} law needs the cell at which its rate holds; add for instance reference_cell = "0.5 m", '
+            'or internal_length = "1 m" for softening that is the same on every mesh'
+        )
     return None
 
 

@@ -1,0 +1,88 @@
+"""The average of plastic strain over the internal length: a Gaussian on the grid, and nothing where there is none."""
+
+import numpy as np
+import pytest
+from small_slope import small_model, with_strength
+
+from solver.geometry import Surface, fill_ground
+from solver.gravity import in_situ_state
+from solver.grid import allocate_grid
+from solver.march import run
+from solver.nonlocal_softening import (
+    average_plastic_strain,
+    coarse_rate_factor,
+    pooling_variance,
+    smoothing_weights,
+)
+
+LENGTH = 1.0  # m
+LEVEL = Surface(np.array([0.0, 8.0]), np.array([8.0, 8.0]))
+
+
+def averaged(cell, surface, plastic_strain_at):
+    """Return particles of level ground and what an increment ``plastic_strain_at(x, y)`` becomes."""
+    particles = fill_ground(surface, cell, 4, 2000.0)
+    particles.plastic_strain[:] = plastic_strain_at(particles.x, particles.y)
+    grid = allocate_grid(surface.width, surface.top + cell, cell, 0.25, smoothing_weights(LENGTH, cell, 0.25))
+    average_plastic_strain(particles, grid, np.zeros(particles.x.size))
+    return particles
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0, 3.7, 8.0])
+def test_the_filter_keeps_the_sum_and_has_the_variance_that_pooling_lacks(ratio):
+    """``sigma^2 = l^2 / 2 pi`` in cells squared, less the variance of pooling; here the cell is 1 m."""
+    weights = smoothing_weights(ratio, 1.0, 0.25)
+    k = np.arange(weights.size) - weights.size // 2
+    assert np.all(weights >= 0.0)
+    np.testing.assert_allclose(weights.sum(), 1.0, rtol=1e-14)
+    expected = max(0.0, ratio**2 / (2.0 * np.pi) - pooling_variance(0.25))
+    np.testing.assert_allclose(weights @ k**2, expected, atol=1e-13)
+
+
+def test_even_plastic_strain_stays_as_it_is_up_to_walls_and_surface():
+    """The quotient of two sums smoothed alike."""
+    particles = averaged(
+        0.25, Surface(np.array([0.0, 2.0, 6.0]), np.array([3.0, 3.0, 1.0])), lambda x, y: 0.3 + 0.0 * x
+    )
+    np.testing.assert_allclose(particles.plastic_strain, 0.3, rtol=1e-12)
+
+
+@pytest.mark.parametrize("angle", [0.0, 30.0, 45.0])
+def test_a_thin_band_weakens_its_middle_as_if_it_were_one_internal_length_thick(angle):
+    """``u delta(n)`` becomes ``u / l exp(-n^2 pi / l^2)``, in any direction; 3 % of the peak at ten cells a length.
+
+    The band is a hat of half width ``w`` for ``delta``, so that its area hardly depends on the lattice; it adds
+    ``w^2 / 6`` to the variance.
+    """
+    normal = np.array([-np.sin(np.radians(angle)), np.cos(np.radians(angle))])
+    half_width = 0.2
+
+    def distance(x, y):
+        return (x - 4.0) * normal[0] + (y - 4.0) * normal[1]
+
+    def band(x, y):
+        return np.maximum(0.0, 1.0 - abs(distance(x, y)) / half_width) / half_width
+
+    particles = averaged(0.1, LEVEL, band)
+    inner = np.hypot(particles.x - 4.0, particles.y - 4.0) < 1.5
+    n = distance(particles.x[inner], particles.y[inner])
+    variance = LENGTH**2 / (2.0 * np.pi) + half_width**2 / 6.0
+    expected = np.exp(-(n**2) / (2.0 * variance)) / np.sqrt(2.0 * np.pi * variance)
+    np.testing.assert_allclose(particles.plastic_strain[inner], expected, atol=0.03 / LENGTH)
+
+
+def test_cells_too_coarse_for_the_length_raise_the_rate():
+    """A band no wider than the cell averages over ``sqrt(2 pi 2 (1/12 + l_p^2/3)) h``, 1.14 h at four a cell."""
+    assert coarse_rate_factor(LENGTH, 0.5, 0.25) == 1.0
+    np.testing.assert_allclose(coarse_rate_factor(LENGTH, 2.0, 0.25), 2.287, rtol=1e-3)
+    assert coarse_rate_factor(0.0, 2.0, 0.25) == 1.0
+
+
+def test_a_slide_softens_over_the_internal_length():
+    """The same slope runs farther if its bands soften over less, 0.5 m against 2 m, with one rate."""
+    reach = []
+    for length in (0.5, 2.0):
+        model = small_model()
+        model = model._replace(soil=model.soil._replace(internal_length=length))
+        reach.append(run(model, with_strength(in_situ_state(model)), np.array([0.0, 1.0])).max_displacement[-1])
+    assert reach[0] > 1.02 * reach[1] > 0.1

@@ -1,0 +1,59 @@
+"""Softening in a band: force against displacement of a sheared strip on cells of ``h``, ``h / 2`` and ``h / 4``.
+
+The middle of the strip is 5 % weaker, so all slip ends up there. Local softening at a fixed rate gives a curve for each
+mesh. With non-local softening a band of any thickness softens with its slip ``u`` as ``kappa = u / (sqrt(3) l)``
+(``solver.nonlocal_softening``), and with the elastic strip in series the stress ``tau`` at displacement ``U`` solves
+
+    tau = c_r + (c_p - c_r) exp(-eta kappa),   u = U - tau H / G
+
+in the quasi-static limit; tensor shear ``gamma / 2`` of pure plastic shear is ``eps_p = gamma / sqrt(3)``.
+"""
+
+import numpy as np
+from shear_strip import COARSE_CELL, HEIGHT, PEAK, RESIDUAL, WEAK_SHARE, shear_force, shear_modulus_of_strip
+
+CELLS = COARSE_CELL * np.array([1.0, 0.5, 0.25])
+RATE, LENGTH = 3.0, 1.0
+
+
+def curves(rates, internal_length):
+    """Return displacement (m) and the mean shear stress (Pa) on each mesh, from yield on."""
+    found = [shear_force(cell, rate, internal_length) for cell, rate in zip(CELLS, rates, strict=True)]
+    displacement = found[0][0]
+    at_yield = PEAK * HEIGHT / shear_modulus_of_strip()
+    yielding = displacement > at_yield
+    return displacement[yielding], np.array([stress[yielding] for _, stress in found])
+
+
+def closed_form(displacement):
+    """Return the stress at each displacement by bisection on the slip."""
+    peak = WEAK_SHARE * PEAK
+    low, high = np.zeros_like(displacement), displacement.copy()
+    for _ in range(60):
+        slip = 0.5 * (low + high)
+        strength = RESIDUAL + (peak - RESIDUAL) * np.exp(-RATE * slip / (np.sqrt(3.0) * LENGTH))
+        too_little = shear_modulus_of_strip() * (displacement - slip) / HEIGHT > strength
+        low, high = np.where(too_little, slip, low), np.where(too_little, high, slip)
+    return strength
+
+
+def spread(stress):
+    """Return the largest difference between meshes over the finest one's stress."""
+    return float(np.max(np.ptp(stress, axis=0) / stress[-1]))
+
+
+def test_non_local_softening_gives_one_curve_on_all_meshes():
+    """Within 5 % of each other, and the finest within 2.5 % of the closed form (inertia of the drive included)."""
+    displacement, stress = curves([RATE] * 3, LENGTH)
+    assert spread(stress) < 0.05
+    np.testing.assert_allclose(stress[-1], closed_form(displacement), rtol=0.025)
+
+
+def test_local_softening_gives_a_curve_for_each_mesh():
+    """At the same rate a quarter of the cell uses up strength four times as fast."""
+    assert spread(curves([RATE] * 3, 0.0)[1]) > 0.3
+
+
+def test_local_softening_scaled_with_the_cell_gives_one_curve_in_a_band():
+    """The band is one cell, so the rate in proportion to the cell keeps slip to strength: what ``rate_at`` is for."""
+    assert spread(curves(RATE * CELLS / COARSE_CELL, 0.0)[1]) < 0.05
