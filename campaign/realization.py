@@ -100,7 +100,7 @@ def model_of(scene: Scene) -> Model:
         scheme=Scheme(STRESS_UPDATES[numerics.stress_update], numerics.flip, 0.0, LOCKING[numerics.locking]),
         courant=numerics.courant,
         ramp_time=numerics.ramp_time if numerics.gravity == "ramp" else 0.0,
-        slide=Slide(scene.slide.displaced, scene.slide.failed),
+        slide=Slide(scene.slide.displaced, scene.slide.failed, scene.slide.front_area),
     )
 
 

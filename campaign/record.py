@@ -48,7 +48,7 @@ QUANTITIES: dict[str, Quantity] = {
     "kinetic_energy": Quantity(("time",), "J/m", "kinetic energy per metre run"),
     "final_runout": Quantity((), "m", "final advance of the front-most slid particle from the initial toe"),
     "final_runout_mass": Quantity(
-        (), "m", "final advance of the front beyond which an area of (5 slide.displaced)^2 of slid material lies"
+        (), "m", "final advance of the front beyond which slide.front_area of slid material lies"
     ),
     "sliding_volume": Quantity((), "m3/m", "volume displaced farther than slide.displaced, per metre run"),
     "settle_time": Quantity((), "s", "time from release to rest"),

@@ -15,6 +15,7 @@ from campaign.scene_file.constraints import (
     AcuteAngle,
     Fraction,
     OpenFraction,
+    PositiveArea,
     PositiveCount,
     PositiveLength,
     PositiveNumber,
@@ -129,10 +130,11 @@ class Numerics(Section):
 
 
 class Slide(Section):
-    """From which displacement since release on, in m, ground belongs to the slide, and a slope has failed."""
+    """From which displacement since release on (m) ground belongs to the slide and a slope has failed; its front."""
 
     displaced: PositiveLength = 0.1
     failed: PositiveLength = 1.0
+    front_area: PositiveArea = 0.25
 
 
 class Campaign(Section):

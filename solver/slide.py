@@ -1,8 +1,7 @@
-"""What counts as a slide: two displacements, and by the similarity of Froude what follows from them.
+"""What counts as a slide, and by the similarity of Froude when one is over.
 
-Two slides in similar ground whose lengths are as 1 to L have times and speeds as 1 to sqrt(L). So areas go with the
-square of a displacement and the criteria of rest with the root of it, and a column of 0.1 m is judged like a slope of
-15 m once both displacements are given at its scale.
+Two slides in similar ground whose lengths are as 1 to L have times and speeds as 1 to sqrt(L). So the criteria of rest
+go with the root of a displacement, and a column of 0.1 m is judged like a slope of 15 m once it is given at its scale.
 """
 
 from math import sqrt
@@ -10,15 +9,11 @@ from typing import NamedTuple
 
 
 class Slide(NamedTuple):
-    """Displacements since release, in m, from which on ground belongs to a slide and is one."""
+    """Displacements since release from which on ground belongs to a slide and is one, and the size of its front."""
 
-    displaced: float  # a particle displaced farther belongs to the sliding mass
-    failed: float  # a slope of which a particle is displaced farther has failed; arms the end criterion
-
-    @property
-    def front_area(self) -> float:
-        """Area in m2 of sliding mass that the mass front leaves ahead of it: a square of side ``5 displaced``."""
-        return (5.0 * self.displaced) ** 2
+    displaced: float  # m: a particle displaced farther belongs to the sliding mass
+    failed: float  # m: a slope of which a particle is displaced farther has failed; arms the end criterion
+    front_area: float  # m2: the mass front leaves this much of the sliding mass ahead of it
 
     @property
     def rest_speed(self) -> float:
@@ -31,5 +26,5 @@ class Slide(NamedTuple):
         return 0.2 * sqrt(self.failed)
 
 
-PAPER = Slide(displaced=0.1, failed=1.0)
+PAPER = Slide(displaced=0.1, failed=1.0, front_area=0.25)
 """The displacements of Ma, Rezania and Mousavi Nezhad, section 3.2."""

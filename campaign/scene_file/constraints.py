@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field
 
-from campaign.scene_file.units import Angle, Length, Pressure, Time
+from campaign.scene_file.units import Angle, Area, Length, Pressure, Time
 
 
 def must(complaint: str, holds: Callable[[Any], bool]) -> AfterValidator:
@@ -29,6 +29,7 @@ POSITIVE = must("be greater than zero", lambda value: value > 0.0)
 NOT_NEGATIVE = must("not be negative", lambda value: value >= 0.0)
 
 PositiveLength = Annotated[Length, POSITIVE]
+PositiveArea = Annotated[Area, POSITIVE]
 PositivePressure = Annotated[Pressure, POSITIVE]
 PositiveTime = Annotated[Time, POSITIVE]
 AcuteAngle = Annotated[Angle, must("lie between 0 deg and 90 deg", lambda angle: 0.0 < angle < radians(90.0))]

@@ -19,13 +19,14 @@ class Kind(NamedTuple):
 
 
 LENGTH = Kind("a length", "m", "2 m")
+AREA = Kind("an area", "m^2", "0.25 m^2")
 PRESSURE = Kind("a pressure", "Pa", "20 kPa")
 UNIT_WEIGHT = Kind("a unit weight", "N/m^3", "20 kN/m^3")
 ANGLE = Kind("an angle", "rad", "10 deg")
 TIME = Kind("a time", "s", "10 s")
 DENSITY = Kind("a density", "kg/m^3", "2000 kg/m^3")
 NUMBER = Kind("a number without unit", "", "0.1")
-KINDS = (LENGTH, PRESSURE, UNIT_WEIGHT, ANGLE, TIME, DENSITY, NUMBER)
+KINDS = (LENGTH, AREA, PRESSURE, UNIT_WEIGHT, ANGLE, TIME, DENSITY, NUMBER)
 
 QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S.*?)?\s*")
 BARE_EXPONENT = re.compile(r"(?<=[A-Za-z])(\d)")
@@ -88,6 +89,7 @@ def _name(unit: "pint.Unit") -> str:
 
 
 Length = Annotated[float, BeforeValidator(partial(si_value, kind=LENGTH))]
+Area = Annotated[float, BeforeValidator(partial(si_value, kind=AREA))]
 Pressure = Annotated[float, BeforeValidator(partial(si_value, kind=PRESSURE))]
 UnitWeight = Annotated[float, BeforeValidator(partial(si_value, kind=UNIT_WEIGHT))]
 Angle = Annotated[float, BeforeValidator(partial(si_value, kind=ANGLE))]
