@@ -24,7 +24,7 @@ def draw(maps, path):
 
     figure, panels = plt.subplots(1, len(maps), sharey=True, figsize=(9.5, 3.9), layout="constrained")
     norm = SymLogNorm(NOISE, vmin=-LOSS_SHOWN, vmax=GAIN_SHOWN)
-    colours = plt.get_cmap("RdBu_r").with_extremes(over="black", under="black")
+    colours = plt.get_cmap("RdBu_r").with_extremes(over="black", under="black", bad="black")
     for panel, (title, gains) in zip(panels, maps.items(), strict=True):
         values = np.array(list(gains.values()))
         image = panel.pcolormesh(
