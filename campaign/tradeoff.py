@@ -14,6 +14,7 @@ import numpy as np
 
 from campaign.cost import realization_seconds
 from campaign.exit_codes import RefusalError
+from campaign.fields.samplers import SamplerError
 from campaign.random_field import StrengthSampler
 from campaign.realization import Interrupted, Setup, build_sampler, prepare, simulate
 from campaign.record import USABLE
@@ -146,7 +147,7 @@ def compare(scene: Scene, realizations: int, budget: float, directory: Path, say
     realizations
         Random fields to run.
     budget
-        CPU time in s; settings estimated beyond what is left of it are left out, the reference first.
+        CPU time in s; what is estimated to exceed the rest of it is left out; half the cell comes first.
     directory
         For files of the field sampler.
     say
@@ -170,8 +171,7 @@ def compare(scene: Scene, realizations: int, budget: float, directory: Path, say
             say(f"{setting}: left out, no valid scene. {refusal.__cause__}")
             continue
         trials.append(bench.tried(setting, variant, speed * realization_seconds(variant), say))
-    fine = trials[1]
-    return Tradeoff(scene, trials, fine if fine.was_run and not fine.failures else own)
+    return Tradeoff(scene, trials, min((t for t in trials if not t.failures), key=lambda trial: trial.cell))
 
 
 class Bench:
@@ -185,12 +185,11 @@ class Bench:
     def tried(self, setting: str, scene: Scene, estimate: float, say: Callable[[str], None]) -> Trial:
         """Run a setting of which a realization is estimated to cost `estimate` seconds, or say why not."""
         total, left = estimate * len(self.ids), self._end - time.process_time()
-        announced = f"{setting}: about {duration(total)}"
         if total > left:
             reason = f"left out, about {duration(total)} of CPU time and {duration(max(left, 0))} left"
             say(f"{setting}: {reason}")
             return Trial(setting, scene.numerics.cell, np.full(len(self.ids), np.nan), estimate, reason, was_run=False)
-        say(announced)
+        say(f"{setting}: about {total:.2g} s of CPU time")
         return self._run(setting, scene, estimate)
 
     def _run(self, setting: str, scene: Scene, estimate: float) -> Trial:
@@ -203,7 +202,7 @@ class Bench:
                 runouts[i], reason = self._runout(setup, sampler, realization)
                 seconds.append(time.process_time() - begin)
                 reasons.append(reason)
-        except RefusalError as refusal:
+        except (RefusalError, SamplerError) as refusal:
             reasons.append(str(refusal))
         median = float(np.median(seconds)) if seconds else estimate
         return Trial(setting, scene.numerics.cell, runouts, median, next(filter(None, reasons), ""))
@@ -214,6 +213,8 @@ class Bench:
             record = simulate(setup, sampler, realization, lambda: time.process_time() > self._end)
         except Interrupted:
             return np.nan, "the budget of CPU time is used up"
+        except Exception as error:
+            return np.nan, f"crashed ({error!r})"
         if record.status not in USABLE:
             return np.nan, record.reason or record.status.name
         return float(np.asarray(record.values["final_runout"])), ""

@@ -106,3 +106,18 @@ def test_what_exceeds_the_budget_is_left_out_and_said(tmp_path):
 def test_a_scene_that_gives_no_runout_is_refused(tmp_path):
     with pytest.raises(RefusalError, match="gives no run-out"):
         tradeoff.compare(small_scene(*SHORT), 1, 0.0, tmp_path, lambda line: None)
+
+
+def test_a_run_that_raises_is_a_failure_of_its_setting(tmp_path, monkeypatch):
+    """The first of two realizations, so that the other still counts."""
+    asked = iter([ZeroDivisionError("a particle has no mass")])
+
+    def simulate_badly(*arguments):
+        for error in asked:
+            raise error
+        return simulate(*arguments)
+
+    monkeypatch.setattr(tradeoff, "simulate", simulate_badly)
+    tried = tradeoff.Bench(1, 100.0, tmp_path).tried(OWN, small_scene(*SHORT), 0.1, lambda line: None)
+    assert tried.failures == 1
+    assert "no mass" in tried.reason
