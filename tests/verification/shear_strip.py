@@ -31,7 +31,7 @@ PEAK, RESIDUAL = 20e3, 10e3  # Pa
 WEAK_SHARE, WEAK_LAYER = 0.95, 1.0  # of the peak strength; m
 YOUNG_MODULUS, POISSON_RATIO, DENSITY = 2e6, 0.35, 2000.0
 DRIVE = 0.05  # m/s; a strain of DRIVE over the speed of shear waves is a tenth of the strain at yield
-SLIP, SAMPLES = 1.5, 100  # m, of the top at the end; looks on the way
+SLIP, SAMPLES = 1.0, 66  # m, of the top at the end; looks on the way
 DAMPING, COURANT = 0.7, 0.6
 MUSL = Scheme(STRESS_UPDATES["musl"], 1.0, DAMPING, LOCKING["cell-average"])
 
