@@ -186,9 +186,11 @@ def test_energy_lost_to_the_scheme_is_noticed(start):
     given = 0.5 * start.mass.sum() * 25.0
     march = moving_march(start, released=given / 0.9)
     assert march.loses_energy()
+    assert march.blame_scheme() is Outcome.DIVERGED
     assert "lower numerics.courant" in march.reason
     march.model = MODEL._replace(scheme=MODEL.scheme._replace(flip_fraction=0.9))
     assert march.loses_energy()
+    march.blame_scheme()
     assert "numerics.flip" in march.reason
 
 
