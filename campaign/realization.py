@@ -240,12 +240,13 @@ def _final_values(setup: Setup, start: Particles, history: History) -> dict[str,
         )
         no_surface = np.full(setup.coordinates["x"].size, np.nan)
         return shared | nothing | {"deposit_surface": no_surface, "displaced": np.zeros(setup.n_particles, np.uint8)}
+    settled = particles._replace(volume=start.volume)  # grains that part gain volume, a deposit does not
     half_spacing = 0.5 * model.cell_size / np.sqrt(model.particles_per_cell)
     return shared | {
         "final_runout": history.runout[-1],
         "final_runout_mass": observables.runout_mass(particles, start, model.surface, model.slide),
         "sliding_volume": observables.sliding_volume(particles, start, model.slide),
         "energy_error": history.energy_error,
-        "deposit_surface": observables.deposit_surface(particles, half_spacing, column_edges(model)),
+        "deposit_surface": observables.deposit_surface(settled, half_spacing, column_edges(model)),
         "displaced": observables.is_displaced(particles, start, model.slide).astype(np.uint8),
     }

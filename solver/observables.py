@@ -39,12 +39,13 @@ def runout(particles: Particles, start: Particles, surface: Surface, slide: Slid
 def runout_mass(particles: Particles, start: Particles, surface: Surface, slide: Slide = PAPER) -> float:
     """Return the advance in m of the place beyond which ``slide.front_area`` of the slid slope body lies (0 if none).
 
-    Between particles the area ahead is interpolated, so the measure changes continuously with the state.
+    Areas are those before the slide, because grains that part gain volume. Between particles the area ahead is
+    interpolated, so the measure changes continuously with the state.
     """
     front = is_displaced(particles, start, slide) & slope_body(start, surface)
     order = np.argsort(-particles.x[front], kind="stable")
     x = particles.x[front][order]
-    area = particles.volume[front][order]
+    area = start.volume[front][order]
     ahead = np.cumsum(area) - 0.5 * area
     if x.size == 0 or ahead[-1] < slide.front_area:
         return 0.0
