@@ -47,8 +47,14 @@ def test_mass_front_is_interpolated_between_particles():
     """Areas of 0.1 m2 at 14, 13, 12, 11 m: 0.25 m2 lies ahead of 12 m, where half of the third particle does."""
     start, now = start_and_now([9.0, 8.0, 7.0, 6.0], [5.0] * 4, 5.0, volume=0.1)
     assert observables.runout_mass(now, start, CUT) == pytest.approx(2.0)
-    now.volume[0] = 0.15
+    start.volume[0] = 0.15
     assert observables.runout_mass(now, start, CUT) == pytest.approx(2.0 + 0.5)
+
+
+def test_ground_that_has_come_apart_weighs_no_more_in_the_mass_front():
+    start, now = start_and_now([9.0, 8.0, 7.0, 6.0], [5.0] * 4, 5.0, volume=0.1)
+    now.volume[:] = 5.0
+    assert observables.runout_mass(now, start, CUT) == pytest.approx(2.0)
 
 
 def test_mass_front_does_not_depend_on_the_order_of_the_particles():
