@@ -9,9 +9,10 @@ import numpy as np
 from solver import observables
 from solver.grid import Grid
 from solver.model import STANDARD_GRAVITY, Model
+from solver.operations import GRAVITY_WORK, INTERNAL_WORK
 from solver.particles import Particles, copy_particles
 from solver.slide import PAPER, Slide
-from solver.step import GRAVITY_WORK, INTERNAL_WORK, Workspace, advance, allocate_workspace
+from solver.step import Workspace, advance, allocate_workspace
 from solver.timestep import even_steps, stable_step
 
 REST_ENERGY = 1e-3  # of the largest kinetic energy

@@ -12,18 +12,16 @@ The modified update-stress-last step (MUSL; Sulsky, Zhou and Schreyer 1995, Nair
 
 Update-stress-last (USL) leaves out 4; update-stress-first (USF) moves before 4. A step is two passes over the
 particles, one for 3 and 4, one for 5, 6 and 1 of the next step, in blocks small enough for the first-level cache. Cell
-averages against locking (``mean_dilation``) need all particles at two places, which cuts the second pass in three.
+averages against locking (``mean_dilation``) need all particles at two places, which cuts the second pass in three. The
+operations are in ``operations`` and ``transfer``; here they are put together.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from solver._jit import kernel, law
+from solver._jit import kernel
 from solver.basis import Stencil, allocate_stencil, evaluate_stencil
-from solver.boundary import constrain
-from solver.grid import SMALLEST_MASS
-from solver.kinematics import rotate_stress, volume_ratio
 from solver.mean_dilation import (
     average,
     clear_cells,
@@ -32,13 +30,23 @@ from solver.mean_dilation import (
     replace_dilation,
     with_cell_pressure,
 )
-from solver.mohr_coulomb import update_stress
 from solver.nonlocal_softening import average_plastic_strain
+from solver.operations import (
+    INTERNAL_WORK,
+    are_inside,
+    clear_state,
+    gather_increments,
+    move,
+    remap_momentum,
+    remap_velocity,
+    solve_momentum,
+    update_material,
+    update_velocity,
+)
 from solver.particles import take_block
-from solver.transfer import gradient, interpolate, particle_to_grid, spread_mass, spread_momentum
+from solver.transfer import particle_to_grid, spread_mass
 
 BLOCK = 128
-INTERNAL_WORK, GRAVITY_WORK = 0, 1
 
 STRESS_UPDATES = {"musl": 0, "usl": 1, "usf": 2}
 USL, USF = STRESS_UPDATES["usl"], STRESS_UPDATES["usf"]
@@ -79,142 +87,6 @@ class Scheme(NamedTuple):
     flip_fraction: float  # 1 FLIP, 0 PIC
     damping: float  # local damping: this share of the unbalanced force opposes the motion (in-situ stage only)
     locking: int = LOCKING["none"]  # of LOCKING
-
-
-@law
-def clear_state(grid):
-    """Empty the nodes before the particles spread their state to them."""
-    grid.mass[:] = 0.0
-    grid.momentum[:] = 0.0
-    grid.force[:] = 0.0
-
-
-@law
-def solve_momentum(grid, gravity, damping, dt):
-    """Set nodal acceleration and the velocity at the end of the step from mass, momentum and force."""
-    for i in range(grid.mass.size):
-        has_mass = grid.mass[i] > SMALLEST_MASS
-        inverse = 1.0 / grid.mass[i] if has_mass else 0.0
-        v_x = grid.momentum[i, 0] * inverse
-        v_y = grid.momentum[i, 1] * inverse
-        a_x = grid.force[i, 0] * inverse
-        a_y = grid.force[i, 1] * inverse - (gravity if has_mass else 0.0)
-        a_x -= damping * abs(a_x) * np.sign(v_x)
-        a_y -= damping * abs(a_y) * np.sign(v_y)
-        grid.acceleration[i, 0] = a_x
-        grid.acceleration[i, 1] = a_y
-        grid.velocity[i, 0] = v_x + a_x * dt
-        grid.velocity[i, 1] = v_y + a_y * dt
-        grid.remapped[i, 0] = 0.0
-        grid.remapped[i, 1] = 0.0
-    constrain(grid.acceleration, grid)
-    constrain(grid.velocity, grid)
-
-
-@law
-def update_velocity(particles, stencil, grid, moved_x, moved_y, flip_fraction, dt):
-    """Accelerate the particles and note where they will be at the end of the step."""
-    for p in range(particles.x.size):
-        a_x, a_y = interpolate(grid.acceleration, stencil, p, grid.columns)
-        v_x, v_y = interpolate(grid.velocity, stencil, p, grid.columns)
-        moved_x[p] = particles.x[p] + v_x * dt
-        moved_y[p] = particles.y[p] + v_y * dt
-        flip_x = particles.velocity_x[p] + a_x * dt
-        flip_y = particles.velocity_y[p] + a_y * dt
-        particles.velocity_x[p] = flip_fraction * flip_x + (1.0 - flip_fraction) * v_x
-        particles.velocity_y[p] = flip_fraction * flip_y + (1.0 - flip_fraction) * v_y
-
-
-@law
-def remap_momentum(particles, stencil, grid):
-    """Add the momentum of the accelerated particles to the nodes again."""
-    for p in range(particles.x.size):
-        m = particles.mass[p]
-        momentum_x = m * particles.velocity_x[p]
-        momentum_y = m * particles.velocity_y[p]
-        spread_momentum(grid.remapped, momentum_x, momentum_y, stencil, p, grid.columns)
-
-
-@law
-def remap_velocity(grid):
-    """Turn remapped momentum into velocity that respects the walls."""
-    for i in range(grid.mass.size):
-        inverse = 1.0 / grid.mass[i] if grid.mass[i] > SMALLEST_MASS else 0.0
-        grid.remapped[i, 0] *= inverse
-        grid.remapped[i, 1] *= inverse
-    constrain(grid.remapped, grid)
-
-
-@law
-def gather_increments(increment, nodal_velocity, stencil, count, columns, dt):
-    """Fill ``increment`` with the displacement gradients ``L dt`` of the block."""
-    for p in range(count):
-        xx, xy, yx, yy = gradient(nodal_velocity, stencil, p, columns)
-        increment[0, p] = xx * dt
-        increment[1, p] = xy * dt
-        increment[2, p] = yx * dt
-        increment[3, p] = yy * dt
-
-
-@law
-def update_material(particles, increment, soil):
-    """Update stress, plastic strain and volume of the block; return the work of the stresses in J/m."""
-    work = 0.0
-    for p in range(particles.x.size):
-        l_xx = increment[0, p]
-        l_xy = increment[1, p]
-        l_yx = increment[2, p]
-        l_yy = increment[3, p]
-        shear = 0.5 * (l_xy + l_yx)
-        xx, yy, xy = rotate_stress(
-            particles.stress_xx[p], particles.stress_yy[p], particles.stress_xy[p], 0.5 * (l_xy - l_yx)
-        )
-        new_xx, new_yy, new_zz, new_xy, plastic_strain = update_stress(
-            xx,
-            yy,
-            particles.stress_zz[p],
-            xy,
-            l_xx,
-            l_yy,
-            shear,
-            particles.plastic_strain[p],
-            particles.cohesion[p],
-            particles.friction_angle[p],
-            soil,
-        )
-        volume = particles.volume[p] * volume_ratio(l_xx, l_xy, l_yx, l_yy)
-        mean_volume = 0.5 * (volume + particles.volume[p])
-        work += mean_volume * (0.5 * ((xx + new_xx) * l_xx + (yy + new_yy) * l_yy) + (xy + new_xy) * shear)
-        particles.stress_xx[p] = new_xx
-        particles.stress_yy[p] = new_yy
-        particles.stress_zz[p] = new_zz
-        particles.stress_xy[p] = new_xy
-        particles.plastic_strain[p] = plastic_strain
-        particles.volume[p] = volume
-    return work
-
-
-@law
-def are_inside(x, y, grid):
-    """Return whether every place is finite and within the walls, give or take one cell."""
-    outside = 0
-    for p in range(x.size):
-        in_x = x[p] > -grid.cell_size and x[p] < grid.width + grid.cell_size
-        in_y = y[p] > -grid.cell_size and y[p] < grid.height + grid.cell_size
-        outside += 0 if in_x and in_y else 1
-    return outside == 0
-
-
-@law
-def move(particles, moved_x, moved_y, grid, gravity, ledger):
-    """Put the particles at their new places and enter the work of gravity; return whether they are inside."""
-    fall = 0.0
-    for p in range(particles.x.size):
-        fall += particles.mass[p] * (particles.y[p] - moved_y[p])
-        particles.x[p] = moved_x[p]
-        particles.y[p] = moved_y[p]
-    ledger[GRAVITY_WORK] += gravity * fall
-    return are_inside(particles.x, particles.y, grid)
 
 
 @kernel

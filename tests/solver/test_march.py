@@ -11,8 +11,8 @@ from solver.geometry import fill_ground
 from solver.gravity import in_situ_state
 from solver.march import March, Outcome, RestDetector, run
 from solver.model import STANDARD_GRAVITY
+from solver.operations import GRAVITY_WORK
 from solver.particles import copy_particles
-from solver.step import GRAVITY_WORK
 from solver.timestep import even_steps, stable_step
 
 MODEL = small_model(residual=2e3)

@@ -10,8 +10,9 @@ from solver.geometry import fill_ground
 from solver.gravity import in_situ_state
 from solver.march import Outcome, run
 from solver.model import make_soil
+from solver.operations import INTERNAL_WORK
 from solver.particles import copy_particles
-from solver.step import INTERNAL_WORK, LOCKING, STRESS_UPDATES, Scheme, allocate_workspace, begin, deform
+from solver.step import LOCKING, STRESS_UPDATES, Scheme, allocate_workspace, begin, deform
 
 MODEL = small_model()
 CURED = MODEL._replace(scheme=MODEL.scheme._replace(locking=LOCKING["cell-average"]))

@@ -14,8 +14,9 @@ from test_vibrating_bar import SPEED as BAR_SPEED
 
 from solver import observables
 from solver.elastic import p_wave_speed
+from solver.operations import INTERNAL_WORK
 from solver.particles import allocate_particles
-from solver.step import INTERNAL_WORK, advance, allocate_workspace
+from solver.step import advance, allocate_workspace
 
 BASES = {"linear": LINEAR, "gimp": UGIMP, "bspline": B_SPLINE}
 SIDE, DENSITY, STRAIN = 12.0, 1.0, 0.01  # cells of 1 m

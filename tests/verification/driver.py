@@ -8,16 +8,8 @@ from solver._jit import kernel
 from solver.basis import evaluate_stencil
 from solver.grid import allocate_grid
 from solver.model import make_soil
-from solver.step import (
-    BLOCK,
-    STRESS_UPDATES,
-    Scheme,
-    accelerate,
-    allocate_workspace,
-    deform,
-    solve_momentum,
-    spread_all,
-)
+from solver.operations import solve_momentum
+from solver.step import BLOCK, STRESS_UPDATES, Scheme, accelerate, allocate_workspace, deform, spread_all
 from solver.transfer import spread_momentum
 
 UGIMP, B_SPLINE, LINEAR = 0.25, 0.5, 1e-6  # half lengths in cells, at four particles a cell

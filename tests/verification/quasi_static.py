@@ -14,18 +14,9 @@ from solver.geometry import Surface, fill_ground
 from solver.gravity import LOCAL_DAMPING, in_situ_state, unbalanced_share
 from solver.grid import PADDING, SMALLEST_MASS
 from solver.model import STANDARD_GRAVITY, Model, make_soil
+from solver.operations import solve_momentum
 from solver.particles import copy_particles
-from solver.step import (
-    LOCKING,
-    STRESS_UPDATES,
-    Scheme,
-    accelerate,
-    advance,
-    allocate_workspace,
-    begin,
-    deform,
-    solve_momentum,
-)
+from solver.step import LOCKING, STRESS_UPDATES, Scheme, accelerate, advance, allocate_workspace, begin, deform
 from solver.timestep import stable_step
 
 YOUNG_MODULUS, POISSON_RATIO = 1e9, 0.3

@@ -13,18 +13,9 @@ from solver.elastic import p_wave_speed, shear_modulus
 from solver.grid import PADDING, SMALLEST_MASS, allocate_grid
 from solver.model import make_soil
 from solver.nonlocal_softening import smoothing_weights
+from solver.operations import INTERNAL_WORK, solve_momentum
 from solver.particles import allocate_particles
-from solver.step import (
-    INTERNAL_WORK,
-    LOCKING,
-    STRESS_UPDATES,
-    Scheme,
-    accelerate,
-    allocate_workspace,
-    begin,
-    deform,
-    solve_momentum,
-)
+from solver.step import LOCKING, STRESS_UPDATES, Scheme, accelerate, allocate_workspace, begin, deform
 
 HEIGHT, RIM, COARSE_CELL, WIDTH_IN_CELLS = 10.0, 1.0, 0.5, 2  # m, m, m: rigid blocks at both ends are the walls
 PEAK, RESIDUAL = 20e3, 10e3  # Pa
