@@ -22,6 +22,9 @@ smoothed alike, and their quotient is read back. Pooling and reading have a vari
 ``2 (h^2 / 12 + l_p^2 / 3)`` (a particle's share of a cell is the convolution of two boxes, ``h`` and ``2 l_p`` wide);
 the smoothing supplies the rest of ``sigma^2``. Cells too coarse for that average over the ``l`` they can, and the rate
 is raised in proportion.
+
+What cells cannot resolve still shows: a band across the grid is two to three cells thick and widens the average by its
+own variance, which only ``l`` of four cells and more makes small. With fewer the ground softens too little.
 """
 
 import math
