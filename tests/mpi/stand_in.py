@@ -76,7 +76,7 @@ def record(seed: int, realization: int, cell: float) -> Record:
         name: rng.normal(10, 0.5, [SIZES[dim] for dim in quantity.dims]).astype(quantity.dtype)
         for name, quantity in QUANTITIES.items()
     }
-    values["final_runout"] = values["final_runout"] - 2.0 * cell * (1 + 0.1 * realization)
+    values["final_runout"] = values["final_runout"] + 2.0 * (1.0 - cell) * (1 + 0.1 * realization)
     values["displaced"] = rng.integers(0, 2, SIZES["particle"], "u1")
     values["wall_time"] = time.process_time()
     return Record(realization, Status.slid, "", values)
