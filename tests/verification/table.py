@@ -1,4 +1,4 @@
-"""Print the verification ladder as a Markdown table: ``python tests/verification/table.py``."""
+"""Print the verification ladder as a Markdown table; ``ladder.md`` beside this file is what it printed."""
 
 import test_free_block
 import test_generalized_vortex
@@ -20,6 +20,10 @@ LADDER = (
 
 
 def main():
+    print(
+        "Made by `python tests/verification/table.py > tests/verification/ladder.md`. What is expected was set beforehand;"
+    )
+    print("rows that miss it stay.\n")
     print("| phenomenon | expected | observed | error |")
     print("|---|---|---|---|")
     for phenomenon in LADDER:

@@ -73,7 +73,7 @@ def rows():
         table.append(
             Row(
                 f"Two discs, {2 * RADIUS / cell:.0f} cells across, {name.upper()}",
-                "kinetic energy 97 %, contact within 2.8 h, momentum 0",
+                "kinetic energy 97 %, contact within 1 h, momentum 0",
                 f"rebound {rebound:.3f}, kinetic energy {kinetic:.1%}, contact at {gap / cell:.1f} h, momentum "
                 f"{abs(momentum):.0e}",
                 f"total energy {energy - 1.0:+.2%}",
