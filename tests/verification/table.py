@@ -20,10 +20,8 @@ LADDER = (
 
 
 def main():
-    print(
-        "Made by `python tests/verification/table.py > tests/verification/ladder.md`. What is expected was set beforehand;"
-    )
-    print("rows that miss it stay.\n")
+    print("Made by `python tests/verification/table.py > tests/verification/ladder.md`. What is expected comes from")
+    print("theory and the literature; rows that miss it stay.\n")
     print("| phenomenon | expected | observed | error |")
     print("|---|---|---|---|")
     for phenomenon in LADDER:
