@@ -2,14 +2,17 @@
 
 import math
 
-from campaign import discretisation
-from campaign.running.progress import duration
+from campaign.durations import duration
 from campaign.scene import Geometry, Scene
-
-GRAVITY = 9.81
+from solver.constants import STANDARD_GRAVITY
+from solver.elastic import bulk_modulus, p_wave_speed, shear_modulus
+from solver.timestep import stable_step
 
 PARTICLE_STEPS = 10e6
 """Particle-steps a second on an ordinary core, as measured by the benchmark in tests/benchmarks."""
+
+HALF_CELL_COST = 8
+"""Of a realization with half the cell, relative to one: four times the particles, twice the steps."""
 
 
 def cost(scene: Scene) -> str:
@@ -18,7 +21,7 @@ def cost(scene: Scene) -> str:
     steps = scene.numerics.end_time / time_step(scene)
     seconds = realization_seconds(scene)
     wanted = scene.campaign
-    total = seconds * (wanted.realizations + discretisation.COST * wanted.discretisation_pairs)
+    total = seconds * (wanted.realizations + HALF_CELL_COST * wanted.discretisation_pairs)
     return (
         f"about {particles:,} particles and {steps:,.0f} steps: at most {duration(seconds)} a realization and "
         f"{total / 3600:.1f} core-hours for all {wanted.realizations}, with {wanted.discretisation_pairs} repeated at "
@@ -37,11 +40,11 @@ def particle_count(scene: Scene) -> int:
 
 
 def time_step(scene: Scene) -> float:
-    """Return the time step of ground at rest [s], courant h / c_p with the elastic P-wave speed c_p."""
-    modulus, ratio = scene.soil.young_modulus, scene.soil.poisson_ratio
-    p_wave_modulus = modulus * (1 - ratio) / ((1 + ratio) * (1 - 2 * ratio))
-    speed = math.sqrt(p_wave_modulus * GRAVITY / scene.soil.unit_weight)
-    return scene.numerics.courant * scene.numerics.cell / speed
+    """Return the time step of ground at rest [s]."""
+    constants = scene.soil.young_modulus, scene.soil.poisson_ratio
+    density = scene.soil.unit_weight / STANDARD_GRAVITY
+    speed = p_wave_speed(bulk_modulus(*constants), shear_modulus(*constants), density)
+    return stable_step(scene.numerics.courant, scene.numerics.cell, speed, 0.0)
 
 
 def _area(geometry: Geometry) -> float:

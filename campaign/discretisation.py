@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from campaign.cost import HALF_CELL_COST
 from campaign.record import USABLE
 from campaign.running.tally import Outcome, Tally
 from campaign.scene import Scene
@@ -18,9 +19,6 @@ from campaign.statistics import Interval, Sample, mean_interval
 
 DIRECTORY = "half-cell"
 """Of the repeated realizations, in the results directory."""
-
-COST = 8
-"""Of a realization with half the cell, relative to one: four times the particles, twice the steps."""
 
 METHOD = (
     "plain difference between run-outs of the same random fields with half the cell and with the cell; no "
@@ -72,7 +70,7 @@ def with_half_cell(scene: Scene, pairs: int) -> Scene:
     """Return the scene of realizations 0 to `pairs` - 1 with half the cell; whatever depends on the cell follows it."""
     numerics = scene.numerics.model_copy(update={"cell": scene.numerics.cell / 2})
     whole = {"realizations": pairs, "minimum": pairs + 1, "max_failed_fraction": 1.0}
-    timeout = {"realization_timeout": COST * scene.campaign.realization_timeout}
+    timeout = {"realization_timeout": HALF_CELL_COST * scene.campaign.realization_timeout}
     return scene.model_copy(
         update={"numerics": numerics, "campaign": scene.campaign.model_copy(update=whole | timeout)}
     )

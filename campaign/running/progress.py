@@ -3,8 +3,8 @@
 import math
 import time
 from collections.abc import Callable
-from datetime import timedelta
 
+from campaign.durations import clock, duration
 from campaign.running.tally import Tally
 from campaign.statistics import Interval, mean_interval, std_interval
 
@@ -60,18 +60,6 @@ def mean_text(mean: Interval) -> str:
 def std_text(std: Interval) -> str:
     """Return the standard deviation with its interval, "0.51 m (0.48 to 0.54)"."""
     return f"{std.estimate:.2f} m ({std.lower:.2f} to {std.upper:.2f})" if std.is_known else "not enough yet"
-
-
-def duration(seconds: float) -> str:
-    """Return a length of time as a person would write it, "45 s", "12 min", "3.5 h"."""
-    if seconds < 100:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
-
-
-def clock(seconds: float) -> str:
-    """Return the time since the start as hours, minutes and seconds, "0:02:05"."""
-    return str(timedelta(seconds=int(seconds)))
 
 
 def _estimates(tally: Tally) -> str:

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from small_slope import small_model, with_strength
 
+from solver.constants import STANDARD_GRAVITY
 from solver.geometry import fill_ground
 from solver.gravity import in_situ_state
 from solver.march import March, Outcome, RestDetector, run
-from solver.model import STANDARD_GRAVITY
 from solver.operations import GRAVITY_WORK
 from solver.particles import copy_particles
 from solver.timestep import even_steps, stable_step
