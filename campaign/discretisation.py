@@ -57,14 +57,6 @@ class Discretisation(NamedTuple):
         """Estimated size in m of the discretisation error of the mean; NaN without a pair."""
         return abs(self.interval.estimate)
 
-    def __str__(self) -> str:
-        if self.interval.n == 0:
-            return "not estimated: no pair of run-outs counts"
-        mean, n = self.interval, self.interval.n
-        doubt = f" ({mean.lower:+.2f} to {mean.upper:+.2f} m)" if mean.is_known else ""
-        pairs = "1 pair" if n == 1 else f"{n} pairs"
-        return f"{self.error:.2f} m; half the cell changes the mean by {mean.estimate:+.2f} m{doubt}, from {pairs}"
-
 
 def with_half_cell(scene: Scene, pairs: int) -> Scene:
     """Return the scene of realizations 0 to `pairs` - 1 with half the cell; whatever depends on the cell follows it."""
