@@ -14,12 +14,13 @@ from campaign.answer import answer
 from campaign.budget import error_budget
 from campaign.exit_codes import RefusalError
 from campaign.figures import style
-from campaign.realization import prepare
+from campaign.realization import build_sampler, prepare
 from campaign.record import Status
 from campaign.report import write_report
 from campaign.results import Results, read_results
 from campaign.running.summary import summary
 from campaign.seeds import BASELINE
+from campaign.snapshots import see_again
 
 PNG = b"\x89PNG\r\n\x1a\n"
 FIGURES = 8
@@ -116,6 +117,13 @@ def test_every_figure_is_there_with_words(page, campaign):
 
 def test_the_drawn_slides_are_the_recorded_ones(page):
     assert "exactly as recorded" not in page.text
+
+
+def test_the_runout_in_a_drawing_is_the_recorded_one_whatever_counts_as_a_slide(tmp_path):
+    """No particle moves 8 m, so nothing is a slide here; with the paper's 0.1 m the run-out would be 2.8 m."""
+    setup = prepare(small_scene("slide.displaced=8 m", "slide.failed=9 m"))
+    seen = see_again(setup, build_sampler(setup, tmp_path), BASELINE)
+    assert seen.end.runout == seen.record.values["final_runout"] == 0.0
 
 
 def test_the_page_needs_nothing_from_outside(page):
