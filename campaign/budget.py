@@ -4,7 +4,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.record import FAILED, USABLE
 from campaign.results import Results
 from campaign.scene import Scene
 from campaign.statistics import Interval, failure_bounds, mean_interval, proportion_interval, std_interval
@@ -78,8 +77,7 @@ def _sampling(results: Results) -> list[Row]:
 
 
 def _failures(results: Results) -> list[Row]:
-    failed = sum(count for status, count in results.by_status().items() if status in FAILED)
-    n = sum(count for status, count in results.by_status().items() if status in USABLE)
+    failed, n = int(np.count_nonzero(results.has_failed)), results.usable_runouts.size
     if not failed or not n or not np.isfinite(results.deterministic):
         return []
     exceeding = int(np.count_nonzero(results.usable_runouts > results.deterministic))

@@ -1,4 +1,4 @@
-"""A finished campaign as the report sees it: `results.nc` and the scene it answers."""
+"""The results of a campaign as terminal and report see them: the dataset and the scene it answers."""
 
 import tempfile
 from collections.abc import Iterable
