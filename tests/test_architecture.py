@@ -2,6 +2,7 @@
 
 import ast
 import sys
+import tomllib
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -49,6 +50,11 @@ def floors_below(module: str) -> set[str]:
             seen.add(name)
             ahead.extend(imports(MODULES[name]) & MODULES.keys())
     return seen
+
+
+def test_every_package_is_installed():
+    listed = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]["packages"]
+    assert sorted(listed) == sorted(module_name(source) for source in SOURCES if source.name == "__init__.py")
 
 
 def test_the_solver_knows_numpy_and_numba_alone():
