@@ -4,13 +4,12 @@ from enum import IntEnum
 
 
 class ExitCode(IntEnum):
-    """Exit codes of `campaign`; 70, 74 and 75 are those of BSD's sysexits."""
+    """Exit codes of `campaign`; 70 and 75 are those of BSD's sysexits."""
 
     DONE = 0
     REFUSED = 2
     TOO_MANY_FAILED = 3
     INTERNAL_ERROR = 70
-    CANNOT_WRITE = 74
     RESUMABLE = 75
 
 

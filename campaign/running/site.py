@@ -92,7 +92,7 @@ class Site:
             manifest.end(self.directory, code, verdict)
         except OSError as error:
             say(f"The results cannot be written ({error}). All records are kept: make room and repeat the command.")
-            return ExitCode.CANNOT_WRITE
+            return ExitCode.RESUMABLE
         if tally.prefix > 0:
             say(f"Results: {self.directory / NAME} (opens with xarray)")
             if draw is not None:
