@@ -19,9 +19,9 @@ from solver.constants import STANDARD_GRAVITY
 from solver.geometry import Surface, fill_ground, slope_surface
 from solver.gravity import NotSettledError, in_situ_state
 from solver.grid import whole_cells
+from solver.internal_length import coarse_rate_factor
 from solver.march import History, March, Outcome, run
 from solver.model import Model, make_soil
-from solver.nonlocal_softening import coarse_rate_factor
 from solver.particles import Particles, copy_particles
 from solver.slide import Slide
 from solver.step import LOCKING, STRESS_UPDATES, Scheme

@@ -11,8 +11,8 @@ import numpy as np
 from solver._jit import kernel, law
 from solver.elastic import p_wave_speed, shear_modulus
 from solver.grid import PADDING, SMALLEST_MASS, allocate_grid
+from solver.internal_length import smoothing_weights
 from solver.model import make_soil
-from solver.nonlocal_softening import smoothing_weights
 from solver.operations import INTERNAL_WORK, solve_momentum
 from solver.particles import allocate_particles
 from solver.step import LOCKING, STRESS_UPDATES, Scheme, accelerate, allocate_workspace, begin, deform

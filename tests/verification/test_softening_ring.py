@@ -13,7 +13,7 @@ from driver import Row
 from scipy.optimize import minimize_scalar
 from shear_ring import PEAK, WEAK_SHARE, compliance, shear_force
 
-from solver.nonlocal_softening import BAND_THICKNESS
+from solver.internal_length import BAND_THICKNESS
 
 RATE, LENGTH = 1.875, 1.25
 CELLS = (0.5, 0.25, 0.125)
