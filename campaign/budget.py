@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.doubts import doubts
+from campaign.doubts import detached_fronts, doubts
 from campaign.record import FAILED, USABLE, Status
 from campaign.results import Results
 from campaign.statistics import (
@@ -97,11 +97,12 @@ def reasons_for_doubt(results: Results) -> list[str]:
     """Return sentences on why the intervals may not hold."""
     unsettled, n = results.by_status()[Status.not_settled], results.usable_runouts.size
     censored = f"{unsettled} of the {n} run-outs are lower bounds: those slides were still moving at numerics.end_time."
-    return [*doubts(results.runouts), *([censored] if unsettled else [])]
+    apart = detached_fronts(results.detached_volumes, results.scene.slide.front_area)
+    return [*doubts(results.runouts), *apart, *([censored] if unsettled else [])]
 
 
 def outcomes(results: Results) -> list[Outcome]:
-    """Return how the realizations ended, with the distinct reasons of failures."""
+    """Return how the realizations ended, with the distinct reasons of failures and flags."""
     reasons, status = results.data["reason"].values, results.data["status"].values
     return [
         Outcome(count, OUTCOMES[each], sorted({str(reason) for reason in reasons[status == int(each)]} - {""}))

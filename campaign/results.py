@@ -65,6 +65,12 @@ class Results:
         return runouts
 
     @property
+    def detached_volumes(self) -> Sample:
+        """What has come apart in the realizations whose run-out counts, in m3/m."""
+        volumes: Sample = self.data["detached_volume"].values[self.is_usable]
+        return volumes
+
+    @property
     def deterministic(self) -> float:
         """Final run-out with mean strengths in m; NaN if that run failed."""
         failed = int(self.data["deterministic_status"]) in FAILED

@@ -3,7 +3,7 @@
 import numpy as np
 
 from campaign.discretisation import Discretisation
-from campaign.doubts import doubts
+from campaign.doubts import detached_fronts, doubts
 from campaign.record import FAILED, Status
 from campaign.running.progress import mean_text, std_text
 from campaign.running.tally import Tally
@@ -17,7 +17,7 @@ NOT_ESTIMATED = "not estimated by this campaign: give campaign.discretisation_pa
 def summary(scene: Scene, tally: Tally, verdict: str, discretisation: Discretisation | None) -> str:
     """Return the campaign's result and its error budget as text."""
     budget = _error_budget(scene, tally, discretisation)
-    return "\n".join(["", f"{scene.title}: {verdict}", *_outcomes(tally), *_answer(tally), *budget])
+    return "\n".join(["", f"{scene.title}: {verdict}", *_outcomes(tally), *_answer(scene, tally), *budget])
 
 
 def _outcomes(tally: Tally) -> list[str]:
@@ -30,7 +30,7 @@ def _outcomes(tally: Tally) -> list[str]:
     return lines
 
 
-def _answer(tally: Tally) -> list[str]:
+def _answer(scene: Scene, tally: Tally) -> list[str]:
     runouts = tally.runouts()
     usable = runouts[~np.isnan(runouts)]
     if len(usable) == 0:
@@ -39,7 +39,8 @@ def _answer(tally: Tally) -> list[str]:
     lines = [f"  run-out        mean {np.mean(usable):.2f} m; {span}"]
     if np.isfinite(tally.threshold):
         lines.append(f"  deterministic  {tally.threshold:.2f} m; {_exceedance(usable, tally)}")
-    return lines + [f"  doubt          {doubt}" for doubt in doubts(runouts)]
+    reasons = [*doubts(runouts), *detached_fronts(tally.detached_volumes(), scene.slide.front_area)]
+    return lines + [f"  doubt          {doubt}" for doubt in reasons]
 
 
 def _exceedance(usable: np.ndarray[tuple[int], np.dtype[np.float64]], tally: Tally) -> str:
