@@ -13,7 +13,7 @@ from sweep import COURANTS, draw, sweep
 from test_limit_loads import PRANDTL
 from whole_runs import UNSTABLE, is_stopped, simulate
 
-from campaign.scene_file.rules import LARGEST_COURANT
+from solver.timestep import LARGEST_COURANT
 
 
 class Entry(NamedTuple):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from campaign.scene_file.rules import LARGEST_COURANT
+from solver.timestep import LARGEST_COURANT
 
 COURANTS = [round(0.1 * k, 1) for k in range(1, 17)]
 LOSS_SHOWN = GAIN_SHOWN = 1.0  # of the vibration energy

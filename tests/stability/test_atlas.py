@@ -8,7 +8,7 @@ import time_step
 from bodies import BASES, crossing_bar, displacement_error, flying_block, still_block
 from driver import SCHEMES
 
-from campaign.scene_file.rules import LARGEST_COURANT
+from solver.timestep import LARGEST_COURANT
 
 ALLOWED = {pair: largest for pair, largest in LARGEST_COURANT.items() if largest > 0.0}
 
