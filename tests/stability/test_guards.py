@@ -5,26 +5,17 @@ number is lifted for these tests. Shortly beyond the limit that is blind, and th
 """
 
 import pytest
-from whole_runs import SHORTLY_BEYOND, STABLE, UNSTABLE, is_stopped, label, simulate
+from whole_runs import SHORTLY_BEYOND, STABLE, UNSTABLE, is_stopped, label, simulate, soft_ground
 
 from campaign.record import Status
-
-QUICK = UNSTABLE[::6]
-SLOW = [run for run in UNSTABLE if run not in QUICK]
 
 
 def test_there_are_more_than_thirty_unstable_runs():
     assert len({label(settings) for settings in UNSTABLE}) == len(UNSTABLE) > 30
 
 
-@pytest.mark.parametrize("settings", QUICK, ids=label)
+@pytest.mark.parametrize("settings", UNSTABLE, ids=label)
 def test_an_unstable_run_is_stopped_with_a_reason(settings):
-    assert is_stopped(simulate(settings, without_limit=True))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("settings", SLOW, ids=label)
-def test_every_unstable_run_is_stopped_with_a_reason(settings):
     assert is_stopped(simulate(settings, without_limit=True))
 
 
@@ -50,14 +41,25 @@ def test_a_stable_run_raises_no_alarm(settings):
     record = simulate(settings)
     assert record.status in (Status.slid, Status.not_settled)
     assert abs(record.values["energy_error"]) < 2e-3
+    assert record.values["detached_volume"] == 0.0
+    assert record.reason == ""
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("settings", STABLE[3:], ids=label)
 def test_no_stable_run_raises_an_alarm(settings):
     record = simulate(settings)
     assert record.status in (Status.slid, Status.not_settled)
     assert abs(record.values["energy_error"]) < 0.015
+
+
+def test_soft_ground_loses_energy_in_proportion_to_the_step():
+    """A real loss, of MUSL's remap in ground that bounces by half its height, and the remedy in the reason works."""
+    (_, least), (half, less), (whole, lost) = (soft_ground(courant) for courant in (0.1, 0.3, 0.6))
+    assert less / least == pytest.approx(3.0, rel=0.15)
+    assert lost / less == pytest.approx(2.0, rel=0.15)
+    assert not is_stopped(half)
+    assert "destroyed energy" in whole.reason
+    assert "lower numerics.courant" in whole.reason
 
 
 def test_an_explosion_that_leaves_the_grid_is_not_blamed_on_a_short_plain():

@@ -75,7 +75,7 @@ def changed(scene, settings):
     return scene.model_copy(update=sections)
 
 
-def simulate(settings, without_limit=False):
+def simulate(settings, without_limit=False, observe=lambda march: None):
     """Return realization 0 of the slope with these settings as a record, or None if its ground is refused.
 
     Without the limit on the Courant number, the march has only its own progress to judge by.
@@ -87,7 +87,14 @@ def simulate(settings, without_limit=False):
     limit = patch("solver.march.largest_courant", return_value=inf) if without_limit else nullcontext()
     with limit, np.errstate(all="ignore"), tempfile.TemporaryDirectory() as directory:
         sampler = realization.build_sampler(setup, Path(directory))
-        return realization.simulate(setup, sampler, 0, lambda: False)
+        return realization.simulate(setup, sampler, 0, lambda: False, observe)
+
+
+def soft_ground(courant):
+    """Return record and energy error of ground that its own weight, 380 kPa at the base, presses to a fifth."""
+    errors = []
+    settings = {"young_modulus": 3e5, "gravity": "ramp", "courant": courant}
+    return simulate(settings, observe=lambda march: errors.append(march.energy_error())), errors[-1]
 
 
 def is_stopped(record):
