@@ -9,8 +9,12 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from campaign.exit_codes import ExitCode, RefusalError
+
+if TYPE_CHECKING:
+    from campaign.scene import Scene
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
@@ -42,9 +46,9 @@ def _pin_threads() -> None:
 def _run(options: argparse.Namespace) -> ExitCode:
     from campaign import realization
     from campaign.runner import run
-    from campaign.scene import Scene, load_scene
+    from campaign.scene import load_scene
 
-    def read_scene() -> Scene:
+    def read_scene() -> "Scene":
         return load_scene(options.scene, _overrides(options))
 
     return run(read_scene, options.out, realization, _draw, options.allow_drift)
@@ -58,12 +62,8 @@ def _draw(directory: Path) -> Path:
 
 def _validate(options: argparse.Namespace) -> ExitCode:
     from campaign.cost import cost
-    from campaign.scene import SceneError, load_scene
 
-    try:
-        scene = load_scene(options.scene, _overrides(options))
-    except SceneError as error:
-        raise RefusalError(str(error)) from error
+    scene = _scene(options)
     print(f"{scene.title}: a valid scene; {cost(scene)}.")
     return ExitCode.DONE
 
@@ -81,10 +81,6 @@ def _status(options: argparse.Namespace) -> ExitCode:
 def _report(options: argparse.Namespace) -> ExitCode:
     from campaign.report import write_report
 
-    if not (options.directory / "results.nc").exists():
-        raise RefusalError(
-            f"{options.directory} holds no results.nc; give the directory of a campaign that has results."
-        )
     print(write_report(options.directory))
     return ExitCode.DONE
 
@@ -99,13 +95,9 @@ def _replay(options: argparse.Namespace) -> ExitCode:
 
 
 def _tradeoff(options: argparse.Namespace) -> ExitCode:
-    from campaign.scene import SceneError, load_scene
     from campaign.tradeoff_report import write_tradeoff
 
-    try:
-        scene = load_scene(options.scene, _overrides(options))
-    except SceneError as error:
-        raise RefusalError(str(error)) from error
+    scene = _scene(options)
     out = options.out or Path(f"tradeoff-{scene.name}")
     write_tradeoff(scene, 60 * options.budget, out)
     return ExitCode.DONE
@@ -117,6 +109,15 @@ def _scenes(_options: argparse.Namespace) -> ExitCode:
     for name, title in builtin_scenes().items():
         print(f"{name:20}{title}")
     return ExitCode.DONE
+
+
+def _scene(options: argparse.Namespace) -> "Scene":
+    from campaign.scene import SceneError, load_scene
+
+    try:
+        return load_scene(options.scene, _overrides(options))
+    except SceneError as error:
+        raise RefusalError(str(error)) from error
 
 
 def _overrides(options: argparse.Namespace) -> list[str]:

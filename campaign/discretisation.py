@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from campaign.cost import HALF_CELL_COST
 from campaign.record import USABLE
 from campaign.running.tally import Outcome, Tally
 from campaign.scene import Scene
@@ -18,9 +19,6 @@ from campaign.statistics import Interval, Sample, mean_interval
 
 DIRECTORY = "half-cell"
 """Of the repeated realizations, in the results directory."""
-
-COST = 8
-"""Of a realization with half the cell, relative to one: four times the particles, twice the steps."""
 
 METHOD = (
     "plain difference between run-outs of the same random fields with half the cell and with the cell; no "
@@ -59,20 +57,12 @@ class Discretisation(NamedTuple):
         """Estimated size in m of the discretisation error of the mean; NaN without a pair."""
         return abs(self.interval.estimate)
 
-    def __str__(self) -> str:
-        if self.interval.n == 0:
-            return "not estimated: no pair of run-outs counts"
-        mean, n = self.interval, self.interval.n
-        doubt = f" ({mean.lower:+.2f} to {mean.upper:+.2f} m)" if mean.is_known else ""
-        pairs = "1 pair" if n == 1 else f"{n} pairs"
-        return f"{self.error:.2f} m; half the cell changes the mean by {mean.estimate:+.2f} m{doubt}, from {pairs}"
-
 
 def with_half_cell(scene: Scene, pairs: int) -> Scene:
     """Return the scene of realizations 0 to `pairs` - 1 with half the cell; whatever depends on the cell follows it."""
     numerics = scene.numerics.model_copy(update={"cell": scene.numerics.cell / 2})
     whole = {"realizations": pairs, "minimum": pairs + 1, "max_failed_fraction": 1.0}
-    timeout = {"realization_timeout": COST * scene.campaign.realization_timeout}
+    timeout = {"realization_timeout": HALF_CELL_COST * scene.campaign.realization_timeout}
     return scene.model_copy(
         update={"numerics": numerics, "campaign": scene.campaign.model_copy(update=whole | timeout)}
     )

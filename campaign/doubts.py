@@ -57,13 +57,13 @@ def heavy_realization(values: Sample) -> list[str]:
     ]
 
 
-def detached_fronts(volumes: Sample, front_area: float) -> list[str]:
+def detached_fronts(volumes: Sample, mass_runouts: Sample, front_area: float) -> list[str]:
     """Doubt run-outs that single pieces decide, ahead of the slide and no longer joined to it.
 
     Parameters
     ----------
-    volumes : array (n,)
-        What has come apart in the usable realizations [m3/m].
+    volumes, mass_runouts : array (n,)
+        What has come apart in the usable realizations [m3/m], and their `final_runout_mass` [m].
     front_area : float
         What `final_runout_mass` leaves ahead of it [m2]; from that much debris on it is measured in debris, too.
     """
@@ -72,8 +72,9 @@ def detached_fronts(volumes: Sample, front_area: float) -> list[str]:
         return []
     doubt = (
         f"In {apart} of {len(volumes)} slides the front-most ground has come apart, too far for the nodes to join it "
-        "to the slide: final_runout tells where that debris stopped, final_runout_mass where the slide did"
+        f"to the slide: the run-out is that of this debris. Use final_runout_mass "
+        f"({mass_runouts.mean():.2f} m on average)"
     )
     if beyond == 0:
         return [f"{doubt}."]
-    return [f"{doubt}, except in {beyond} with more debris than slide.front_area; raise that."]
+    return [f"{doubt}, and raise slide.front_area: in {beyond} there is more debris than that."]

@@ -16,11 +16,12 @@ from campaign.record import Record, Status, Value
 from campaign.scene import Geometry, Scene
 from solver import observables
 from solver.basis import half_length_in_cells
+from solver.constants import STANDARD_GRAVITY
 from solver.geometry import Surface, fill_ground, slope_surface
 from solver.gravity import NotSettledError, in_situ_state
 from solver.grid import whole_cells
 from solver.march import History, March, Outcome, run
-from solver.model import STANDARD_GRAVITY, Model, make_soil
+from solver.model import Model, make_soil
 from solver.nonlocal_softening import coarse_rate_factor
 from solver.particles import Particles, copy_particles
 from solver.slide import Slide

@@ -12,7 +12,7 @@ from campaign.record import DamagedRecordError, Record
 from campaign.results import check_same, kept_scene
 from campaign.running.progress import say
 from campaign.seeds import BASELINE
-from campaign.store import RecordStore
+from campaign.store import RecordStore, file_name
 from campaign.vtkhdf import ParticleFile
 from solver.march import March
 from solver.mohr_coulomb import Soil
@@ -139,8 +139,7 @@ def _recorded(directory: Path, realization: int) -> Record | None:
 
 
 def _new_file(directory: Path, realization: int) -> Path:
-    name = "baseline" if realization == BASELINE else f"realization-{realization:06d}"
-    path = directory / "replay" / f"{name}.vtkhdf"
+    path = directory / "replay" / f"{file_name(realization)}.vtkhdf"
     try:
         path.parent.mkdir(exist_ok=True)
     except OSError as error:

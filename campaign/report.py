@@ -9,7 +9,8 @@ from typing import NamedTuple
 import jinja2
 import numpy as np
 
-from campaign import budget
+from campaign.answer import answer, outcomes, reasons_for_doubt
+from campaign.budget import error_budget, modelling_choices
 from campaign.exit_codes import RefusalError
 from campaign.figures import distribution, ground, precision, slides
 from campaign.figures.section import Section, section_of
@@ -90,13 +91,13 @@ def render(results: Results, drawn: list[Drawn], remarks: list[str]) -> str:
     """Return the page as HTML."""
     return _template().render(
         title=results.scene.title,
-        answer=budget.answer(results),
+        answer=answer(results),
         verdict=results.data.attrs["verdict"],
-        doubts=[*budget.reasons_for_doubt(results), *remarks],
-        budget=budget.error_budget(results),
-        choices=budget.modelling_choices(results),
+        doubts=[*reasons_for_doubt(results), *remarks],
+        budget=error_budget(results),
+        choices=modelling_choices(results.scene),
         confidence=f"{100 * results.confidence:g} %",
-        outcomes=budget.outcomes(results),
+        outcomes=outcomes(results),
         realizations=results.realizations,
         figures=drawn,
         scene=results.data.attrs["scene"],

@@ -1,4 +1,4 @@
-"""A finished campaign as the report sees it: `results.nc` and the scene it answers."""
+"""The results of a campaign as terminal and report see them: the dataset and the scene it answers."""
 
 import tempfile
 from collections.abc import Iterable
@@ -61,14 +61,7 @@ class Results:
     @property
     def usable_runouts(self) -> Sample:
         """Final run-outs that count, in m, in the order of realizations."""
-        runouts: Sample = self.data["final_runout"].values[self.is_usable]
-        return runouts
-
-    @property
-    def detached_volumes(self) -> Sample:
-        """What has come apart in the realizations whose run-out counts, in m3/m."""
-        volumes: Sample = self.data["detached_volume"].values[self.is_usable]
-        return volumes
+        return self.usable("final_runout")
 
     @property
     def deterministic(self) -> float:
@@ -83,6 +76,11 @@ class Results:
             return None
         differences, deterministic = self.data["paired_difference"], self.data["deterministic_paired_difference"]
         return Discretisation(self.scene.numerics.cell, differences.values, float(deterministic), self.confidence)
+
+    def usable(self, quantity: str) -> Sample:
+        """Return a scalar of the realizations whose run-out counts, in their order."""
+        values: Sample = self.data[quantity].values[self.is_usable]
+        return values
 
     def has_status(self, statuses: Iterable[Status]) -> NDArray[np.bool_]:
         """Whether a realization ended in one of these ways, (realization,)."""

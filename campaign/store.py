@@ -51,7 +51,7 @@ class RecordStore:
         path = self._pack_path(realization // PACK_SIZE)
         if realization == BASELINE or not path.exists():
             raise KeyError(realization)
-        return _read(path, _group_name(realization))
+        return _read(path, file_name(realization))
 
     def finished(self) -> set[int]:
         """Return the ids that have a record, the baseline's included."""
@@ -82,7 +82,7 @@ class RecordStore:
         for number in sorted({realization // PACK_SIZE for realization in loose - {BASELINE}}):
             block = range(number * PACK_SIZE, (number + 1) * PACK_SIZE)
             if loose.issuperset(block):
-                content = hdf5_bytes({_group_name(k): self.read(k) for k in block})
+                content = hdf5_bytes({file_name(k): self.read(k) for k in block})
                 write_atomically(self._pack_path(number), content)
                 for realization in block:
                     self._loose_path(realization).unlink()
@@ -101,7 +101,7 @@ class RecordStore:
         whole, lost = [], 0
         for realization in block:
             try:
-                whole.append(_read(path, _group_name(realization)))
+                whole.append(_read(path, file_name(realization)))
             except DamagedRecordError:
                 lost += 1
         if not lost:
@@ -120,15 +120,15 @@ class RecordStore:
         return sorted(self.packs.glob("p*.h5"))
 
     def _loose_path(self, realization: int) -> Path:
-        name = "baseline" if realization == BASELINE else f"realization-{realization:06d}"
-        return self.records / f"{name}.h5"
+        return self.records / f"{file_name(realization)}.h5"
 
     def _pack_path(self, number: int) -> Path:
         return self.packs / f"p{number:05d}.h5"
 
 
-def _group_name(realization: int) -> str:
-    return f"realization-{realization:06d}"
+def file_name(realization: int) -> str:
+    """Return what files and groups of a realization are called, without a suffix."""
+    return "baseline" if realization == BASELINE else f"realization-{realization:06d}"
 
 
 def _packed(path: Path) -> list[int]:

@@ -13,13 +13,13 @@ from pathlib import Path
 import numpy as np
 
 from campaign.cost import realization_seconds
+from campaign.durations import duration
 from campaign.exit_codes import RefusalError
 from campaign.fields.samplers import SamplerError
 from campaign.random_field import StrengthSampler
 from campaign.realization import Interrupted, Setup, build_sampler, prepare, simulate
 from campaign.record import USABLE
 from campaign.results import kept_scene
-from campaign.running.progress import duration
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.statistics import Sample

@@ -1,7 +1,7 @@
 """The one place where Numba is configured.
 
-``kernel`` compiles loops over particles or nodes; ``law`` compiles scalar functions of one point, which are always
-inlined into the loop that calls them so that LLVM can vectorise the loop as a whole.
+``kernel`` compiles passes over all particles or nodes; ``law`` compiles what they are made of, scalar functions of one
+point and operations on a block of particles, always inlined so that LLVM can vectorise the loops as a whole.
 """
 
 import hashlib

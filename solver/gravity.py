@@ -3,9 +3,10 @@
 import numpy as np
 
 from solver import observables
+from solver.constants import STANDARD_GRAVITY
 from solver.geometry import Surface, fill_ground
 from solver.grid import Grid
-from solver.model import STANDARD_GRAVITY, Model
+from solver.model import Model
 from solver.particles import Particles
 from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace
 from solver.timestep import stable_step
@@ -46,7 +47,7 @@ def in_situ_state(model: Model) -> Particles:
         If the unbalanced force does not fall below 1e-4 of the weight.
     """
     particles = fill_ground(model.surface, model.cell_size, model.particles_per_cell, model.density)
-    lay_geostatic_stress(particles, model.surface, model.density * STANDARD_GRAVITY, model.poisson_ratio)
+    lay_geostatic_stress(particles, model.surface, model.unit_weight, model.poisson_ratio)
     grid = model.allocate_grid()
     work = allocate_workspace(particles.x.size)
     scheme = Scheme(STRESS_UPDATES["musl"], 1.0, LOCAL_DAMPING, model.scheme.locking)

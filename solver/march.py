@@ -7,8 +7,9 @@ from enum import Enum
 import numpy as np
 
 from solver import observables
+from solver.constants import STANDARD_GRAVITY
 from solver.grid import Grid
-from solver.model import STANDARD_GRAVITY, Model
+from solver.model import Model
 from solver.operations import GRAVITY_WORK, INTERNAL_WORK
 from solver.particles import Particles, copy_particles
 from solver.slide import PAPER, Slide

@@ -3,6 +3,7 @@
 import math
 from typing import NamedTuple
 
+from solver.constants import STANDARD_GRAVITY
 from solver.elastic import bulk_modulus, p_wave_speed, shear_modulus
 from solver.geometry import Surface
 from solver.grid import Grid, allocate_grid
@@ -11,7 +12,6 @@ from solver.nonlocal_softening import smoothing_weights
 from solver.slide import PAPER, Slide
 from solver.step import Scheme
 
-STANDARD_GRAVITY = 9.81  # m/s2
 HEADROOM_IN_CELLS = 2  # space above the highest ground
 
 
@@ -29,6 +29,11 @@ class Model(NamedTuple):
     courant: float
     ramp_time: float  # s over which gravity grows with plasticity active; 0 releases a loaded slope at once
     slide: Slide = PAPER  # what counts as a slide
+
+    @property
+    def unit_weight(self) -> float:
+        """Weight of a volume in N/m3."""
+        return self.density * STANDARD_GRAVITY
 
     @property
     def wave_speed(self) -> float:

@@ -16,7 +16,7 @@ import math
 from typing import NamedTuple
 
 from solver._jit import law
-from solver.elastic import elastic_increment
+from solver.hooke import elastic_increment
 from solver.softening import softened_strength
 
 _TINY = 1e-30

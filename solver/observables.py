@@ -5,7 +5,7 @@ import numpy as np
 from solver.geometry import Surface
 from solver.grid import SMALLEST_MASS, Grid
 from solver.particles import Particles
-from solver.slide import PAPER, Slide
+from solver.slide import Slide
 
 
 def displacement(particles: Particles, start: Particles) -> np.ndarray:
@@ -14,7 +14,7 @@ def displacement(particles: Particles, start: Particles) -> np.ndarray:
     return distance
 
 
-def is_displaced(particles: Particles, start: Particles, slide: Slide = PAPER) -> np.ndarray:
+def is_displaced(particles: Particles, start: Particles, slide: Slide) -> np.ndarray:
     """Return the mask (n,) of the particles that belong to the sliding mass."""
     moved: np.ndarray = displacement(particles, start) > slide.displaced
     return moved
@@ -26,7 +26,7 @@ def slope_body(start: Particles, surface: Surface) -> np.ndarray:
     return above
 
 
-def runout(particles: Particles, start: Particles, surface: Surface, slide: Slide = PAPER) -> float:
+def runout(particles: Particles, start: Particles, surface: Surface, slide: Slide) -> float:
     """Return the advance of the front-most slid particle of the slope body beyond the initial toe, in m (0 if none).
 
     Ground in front of the toe that is pushed or heaved does not count as run-out, only the material that comes over it.
@@ -36,7 +36,7 @@ def runout(particles: Particles, start: Particles, surface: Surface, slide: Slid
     return max(0.0, float(particles.x[front].max() - toe_x)) if front.any() else 0.0
 
 
-def runout_mass(particles: Particles, start: Particles, surface: Surface, slide: Slide = PAPER) -> float:
+def runout_mass(particles: Particles, start: Particles, surface: Surface, slide: Slide) -> float:
     """Return the advance in m of the place beyond which ``slide.front_area`` of the slid slope body lies (0 if none).
 
     Areas are those before the slide, because grains that part gain volume. Between particles the area ahead is
@@ -52,7 +52,7 @@ def runout_mass(particles: Particles, start: Particles, surface: Surface, slide:
     return max(0.0, float(np.interp(slide.front_area, ahead, x)) - surface.toe[0])
 
 
-def sliding_volume(particles: Particles, start: Particles, slide: Slide = PAPER) -> float:
+def sliding_volume(particles: Particles, start: Particles, slide: Slide) -> float:
     """Return the area in m2 (m3 per metre run) that the displaced particles had before the slide."""
     return float(start.volume[is_displaced(particles, start, slide)].sum())
 

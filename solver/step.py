@@ -12,8 +12,9 @@ The modified update-stress-last step (MUSL; Sulsky, Zhou and Schreyer 1995, Nair
 
 Update-stress-last (USL) leaves out 4; update-stress-first (USF) moves before 4. A step is two passes over the
 particles, one for 3 and 4, one for 5, 6 and 1 of the next step, in blocks small enough for the first-level cache. Cell
-averages against locking (``mean_dilation``) need all particles at two places, which cuts the second pass in three. The
-operations are in ``operations`` and ``transfer``; here they are put together.
+averages against locking (``mean_dilation``) need all particles at two places, which cuts the second pass in three;
+averaged plastic strain (``nonlocal_softening``) follows as a pass of its own. The operations are in ``operations`` and
+``transfer``; here they are put together.
 """
 
 from typing import NamedTuple

@@ -2,6 +2,7 @@
 
 import ast
 import sys
+import tomllib
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -39,6 +40,23 @@ def importers_of(package: str) -> set[str]:
     return {name for name, source in MODULES.items() if package in top_levels(source)}
 
 
+def floors_below(module: str) -> set[str]:
+    """Return the module and all of ours that it imports, directly or not."""
+    seen: set[str] = set()
+    ahead = [module]
+    while ahead:
+        name = ahead.pop()
+        if name not in seen:
+            seen.add(name)
+            ahead.extend(imports(MODULES[name]) & MODULES.keys())
+    return seen
+
+
+def test_every_package_is_installed():
+    listed = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]["packages"]
+    assert sorted(listed) == sorted(module_name(source) for source in SOURCES if source.name == "__init__.py")
+
+
 def test_the_solver_knows_numpy_and_numba_alone():
     allowed = {"solver", "numpy", "numba"} | set(sys.stdlib_module_names)
     for name, source in MODULES.items():
@@ -69,11 +87,11 @@ def test_no_import_runs_in_a_circle():
     ],
 )
 def test_lower_floors_do_not_know_the_higher(lower: str, higher: str):
-    seen: set[str] = set()
-    ahead = [lower]
-    while ahead:
-        name = ahead.pop()
-        if name not in seen:
-            seen.add(name)
-            ahead.extend(imports(MODULES[name]) & MODULES.keys())
-    assert higher not in seen
+    assert higher not in floors_below(lower)
+
+
+def test_a_scene_is_validated_without_the_libraries_that_load_slowly():
+    """`campaign validate` is to answer at once; Numba, SciPy and xarray take half a second each."""
+    below = floors_below("campaign.cost") | floors_below("campaign.scene")
+    loaded = set().union(*(top_levels(MODULES[name]) for name in below))
+    assert not loaded & {"numba", "scipy", "xarray", "matplotlib", "mpi4py"}

@@ -6,7 +6,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator
 from scipy import stats
 
-from campaign.figures.style import BLACK, BLUE, GREY, ORANGE, Illustration, letter, need, new_figure
+from campaign.figures.style import BLACK, BLUE, GREY, ORANGE, Illustration, letter, need, need_slides, new_figure
 from campaign.results import Results
 from campaign.statistics import proportion_interval
 
@@ -16,7 +16,8 @@ FEWEST_FOR_BANDS = 20
 
 def curves(results: Results) -> Illustration:
     """Draw run-out over time (figure 6 of the paper)."""
-    n = _count(results, 1)
+    n = results.usable_runouts.size
+    need_slides(n, 1)
     runouts = results.data["runout"].values[results.is_usable]
     time = results.data["time"].values
     figure, (axes,) = new_figure(4.2)
@@ -37,7 +38,8 @@ def curves(results: Results) -> Illustration:
 
 def histogram(results: Results) -> Illustration:
     """Draw the distribution of the final run-out, and the run-out of each realization (figure 7 of the paper)."""
-    n = _count(results, 2)
+    n = results.usable_runouts.size
+    need_slides(n, 2)
     runouts, ids = results.usable_runouts, results.data["realization"].values[results.is_usable]
     mean, std = float(np.mean(runouts)), float(np.std(runouts, ddof=1))
     need(std > 0, "All final run-outs are equal, so they have no distribution to draw.")
@@ -66,7 +68,8 @@ def histogram(results: Results) -> Illustration:
 
 def exceedance(results: Results) -> Illustration:
     """Draw the probability that a slide runs farther than a distance."""
-    n = _count(results, 2)
+    n = results.usable_runouts.size
+    need_slides(n, 2)
     runouts = np.sort(results.usable_runouts)
     distances = np.concatenate([[max(0.0, runouts[0] - 0.05 * runouts[-1])], runouts, [1.03 * runouts[-1]]])
     beyond = [int(np.count_nonzero(runouts > distance)) for distance in distances]
@@ -90,12 +93,6 @@ def exceedance(results: Results) -> Illustration:
     )
     alt = f"Falling curve of the exceedance probability from 1 at {runouts[0]:.2f} m to 1/{n} at {runouts[-1]:.2f} m."
     return Illustration(figure, caption, alt)
-
-
-def _count(results: Results, fewest: int) -> int:
-    n = int(np.count_nonzero(results.is_usable))
-    need(n >= fewest, f"It needs {fewest} or more slides, and there {'is' if n == 1 else 'are'} {n or 'none'}.")
-    return n
 
 
 def _bands(axes: Axes, time: np.ndarray, runouts: np.ndarray) -> None:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
-from campaign.figures.style import BLACK, BLUE, GREEN, Illustration, letter, need, new_figure
+from campaign.figures.style import BLACK, BLUE, GREEN, Illustration, letter, need, need_slides, new_figure
 from campaign.results import Results
 from campaign.statistics import Interval, Sample, mean_interval, std_interval
 
@@ -21,7 +21,7 @@ POINTS = 80
 def convergence(results: Results) -> Illustration:
     """Draw mean and standard deviation of the run-out over the number of realizations, with tolerances."""
     rule, n = results.scene.campaign, results.usable_runouts.size
-    need(n >= FEWEST, f"It needs {FEWEST} or more slides, and there {'is' if n == 1 else 'are'} {n or 'none'}.")
+    need_slides(n, FEWEST)
     need(np.ptp(results.usable_runouts) > 0, "All final run-outs are equal, so nothing converges.")
     figure, panels = new_figure(5.4, 2, sharex=True)
     estimate: list[tuple[str, Callable[[Sample, float], Interval], float]] = [

@@ -78,6 +78,11 @@ def need(condition: Any, sentence: str) -> None:
         raise NotDrawableError(sentence)
 
 
+def need_slides(n: int, fewest: int) -> None:
+    """Give up a figure of `n` slides if it takes more."""
+    need(n >= fewest, f"It needs {fewest} or more slides, and there {'is' if n == 1 else 'are'} {n or 'none'}.")
+
+
 def upper_limit(values: np.ndarray) -> float:
     """Return the end of a colour range that 0.5 % of extreme values do not stretch."""
     return float(np.percentile(values, 99.5)) or 1.0

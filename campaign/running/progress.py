@@ -3,8 +3,8 @@
 import math
 import time
 from collections.abc import Callable
-from datetime import timedelta
 
+from campaign.durations import clock, duration
 from campaign.running.tally import Tally
 from campaign.statistics import Interval, mean_interval, std_interval
 
@@ -52,28 +52,6 @@ def state_line(tally: Tally) -> str:
     return f"{tally.done}/{tally.maximum} done, {tally.failed} failed{_estimates(tally)}"
 
 
-def mean_text(mean: Interval) -> str:
-    """Return the mean run-out with its half-width, "10.80 +- 0.05 m"."""
-    return f"{mean.estimate:.2f} +- {(mean.upper - mean.lower) / 2:.2f} m"
-
-
-def std_text(std: Interval) -> str:
-    """Return the standard deviation with its interval, "0.51 m (0.48 to 0.54)"."""
-    return f"{std.estimate:.2f} m ({std.lower:.2f} to {std.upper:.2f})" if std.is_known else "not enough yet"
-
-
-def duration(seconds: float) -> str:
-    """Return a length of time as a person would write it, "45 s", "12 min", "3.5 h"."""
-    if seconds < 100:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
-
-
-def clock(seconds: float) -> str:
-    """Return the time since the start as hours, minutes and seconds, "0:02:05"."""
-    return str(timedelta(seconds=int(seconds)))
-
-
 def _estimates(tally: Tally) -> str:
     runouts = tally.runouts()
     runouts = runouts[runouts == runouts]
@@ -81,7 +59,17 @@ def _estimates(tally: Tally) -> str:
         return ""
     mean = mean_interval(runouts, tally.rule.confidence)
     std = std_interval(runouts, tally.rule.confidence)
-    return f" | run-out {mean_text(mean)}, std {std_text(std)}"
+    return f" | run-out {_mean(mean)}, std {_std(std)}"
+
+
+def _mean(mean: Interval) -> str:
+    """Return the mean run-out with its half-width, "10.80 +- 0.05 m"."""
+    return f"{mean.estimate:.2f} +- {mean.half_width:.2f} m"
+
+
+def _std(std: Interval) -> str:
+    """Return the standard deviation with its interval, "0.51 m (0.48 to 0.54)"."""
+    return f"{std.estimate:.2f} m ({std.lower:.2f} to {std.upper:.2f})" if std.is_known else "not enough yet"
 
 
 def _time_left(tally: Tally, rate: float) -> str:

@@ -4,10 +4,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
 
+import xarray as xr
+
 from campaign import dataset, discretisation, manifest
 from campaign.discretisation import Discretisation
 from campaign.exit_codes import ExitCode, RefusalError
 from campaign.provenance import attributes
+from campaign.results import NAME, Results
 from campaign.running.level import Level
 from campaign.running.lock import DirectoryLock
 from campaign.running.model import Setup
@@ -79,16 +82,19 @@ class Site:
         found = None
         if repeated is not None and repeated.size is not None:
             found = discretisation.estimate(self.scene, tally, repeated)
-        say(summary(self.scene, tally, verdict, found))
+        say(f"\n{self.scene.title}: {verdict}")
         try:
+            if tally.prefix > 0:
+                result = self._result(setup, tally, verdict, found)
+                say(summary(Results(result, self.scene)))
+                dataset.write(result, self.directory / NAME)
             self.level.store.pack()
-            self._write_results(setup, tally, verdict, found)
             manifest.end(self.directory, code, verdict)
         except OSError as error:
             say(f"The results cannot be written ({error}). All records are kept: make room and repeat the command.")
             return ExitCode.RESUMABLE
         if tally.prefix > 0:
-            say(f"Results: {self.directory / 'results.nc'} (opens with xarray)")
+            say(f"Results: {self.directory / NAME} (opens with xarray)")
             if draw is not None:
                 _attempt(draw, self.directory)
             say(f"One realization again, with all particles: campaign replay {self.directory} K")
@@ -96,14 +102,11 @@ class Site:
             say("Give the same command again to continue.")
         return code
 
-    def _write_results(self, setup: Setup, tally: Tally, verdict: str, found: Discretisation | None) -> None:
-        if tally.prefix == 0:
-            return
+    def _result(self, setup: Setup, tally: Tally, verdict: str, found: Discretisation | None) -> xr.Dataset:
         store = self.level.store
         records = [store.read(realization) for realization in range(tally.prefix)]
         about = attributes(self.scene, manifest.read(self.directory), verdict)
-        result = dataset.build(setup, records, store.read(BASELINE), tally.history(), about, found)
-        dataset.write(result, self.directory / "results.nc")
+        return dataset.build(setup, records, store.read(BASELINE), tally.history(), about, found)
 
 
 def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:

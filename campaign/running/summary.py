@@ -1,84 +1,29 @@
-"""The last words of a campaign: the answer, how sure it is, and on what it rests."""
+"""The last words of a campaign on the terminal, which are those of its report."""
 
-import numpy as np
+from textwrap import fill
 
-from campaign.discretisation import Discretisation
-from campaign.doubts import detached_fronts, doubts
-from campaign.record import FAILED, Status
-from campaign.running.progress import mean_text, std_text
-from campaign.running.tally import Tally
-from campaign.scene import Scene
-from campaign.seeds import BASELINE
-from campaign.statistics import failure_bounds, mean_interval, proportion_interval, std_interval
+from campaign.answer import answer, reasons_for_doubt
+from campaign.budget import Row, error_budget, modelling_choices
+from campaign.results import Results
 
-NOT_ESTIMATED = "not estimated by this campaign: give campaign.discretisation_pairs, or repeat it with half the cell"
+WIDTH = 110
 
 
-def summary(scene: Scene, tally: Tally, verdict: str, discretisation: Discretisation | None) -> str:
-    """Return the campaign's result and its error budget as text."""
-    budget = _error_budget(scene, tally, discretisation)
-    return "\n".join(["", f"{scene.title}: {verdict}", *_outcomes(tally), *_answer(scene, tally), *budget])
+def summary(results: Results) -> str:
+    """Return the answer of a campaign, its error budget and what it rests on as text."""
+    counts = ", ".join(f"{count} {status.name}" for status, count in results.by_status().items() if count)
+    return "\n".join(
+        [
+            *(fill(sentence, WIDTH) for sentence in (answer(results), *reasons_for_doubt(results))),
+            f"Of {results.realizations} realizations: {counts}.",
+            f"Error budget at {100 * results.confidence:g} % confidence",
+            *(f"  {row.source:16}{_words(row)}" for row in error_budget(results)),
+            "What the answer rests on",
+            *(f"  {name:20}{choice}" for name, choice in modelling_choices(results.scene).items()),
+        ]
+    )
 
 
-def _outcomes(tally: Tally) -> list[str]:
-    counts = ", ".join(f"{count} {status.name}" for status, count in tally.by_status().items() if count)
-    lines = [f"  outcomes       {counts or 'none'}"]
-    if unsettled := tally.by_status()[Status.not_settled]:
-        lines.append(f"  note           {unsettled} were still moving at end_time; their run-out is a lower bound.")
-    if BASELINE in tally.outcomes and tally.outcomes[BASELINE].status in FAILED:
-        lines.append("  note           The deterministic run failed; there is nothing to compare with.")
-    return lines
-
-
-def _answer(scene: Scene, tally: Tally) -> list[str]:
-    runouts = tally.runouts()
-    usable = runouts[~np.isnan(runouts)]
-    if len(usable) == 0:
-        return ["  run-out        no realization slid"]
-    span = f"smallest {usable.min():.2f} m, largest {usable.max():.2f} m"
-    lines = [f"  run-out        mean {np.mean(usable):.2f} m; {span}"]
-    if np.isfinite(tally.threshold):
-        lines.append(f"  deterministic  {tally.threshold:.2f} m; {_exceedance(usable, tally)}")
-    reasons = [*doubts(runouts), *detached_fronts(tally.detached_volumes(), scene.slide.front_area)]
-    return lines + [f"  doubt          {doubt}" for doubt in reasons]
-
-
-def _exceedance(usable: np.ndarray[tuple[int], np.dtype[np.float64]], tally: Tally) -> str:
-    exceeding = int(np.count_nonzero(usable > tally.threshold))
-    share = proportion_interval(exceeding, len(usable), tally.rule.confidence)
-    text = f"exceeded by {100 * share.estimate:.0f} % ({100 * share.lower:.0f} to {100 * share.upper:.0f} %)"
-    if failed := tally.failed_in_prefix:
-        lowest, highest = failure_bounds(exceeding, len(usable), failed)
-        text += f"; between {100 * lowest:.0f} and {100 * highest:.0f} % whatever the {failed} failed would have done"
-    return text
-
-
-def _error_budget(scene: Scene, tally: Tally, discretisation: Discretisation | None) -> list[str]:
-    return [
-        f"Error budget at {100 * tally.rule.confidence:g} % confidence",
-        f"  sampling       {_sampling(tally)}",
-        f"  discretisation {discretisation or NOT_ESTIMATED}",
-        f"  modelling      {_choices(scene)}",
-    ]
-
-
-def _sampling(tally: Tally) -> str:
-    runouts = tally.runouts()
-    usable = runouts[~np.isnan(runouts)]
-    if len(usable) < 2:
-        return "not enough yet"
-    confidence = tally.rule.confidence
-    mean, std = mean_interval(usable, confidence), std_interval(usable, confidence)
-    return f"mean {mean_text(mean)}, std {std_text(std)}, from {len(usable)} usable run-outs"
-
-
-def _choices(scene: Scene) -> str:
-    softening, numerics = scene.soil.softening, scene.numerics
-    rate = "no softening"
-    if softening.law != "none":
-        scale = f"at a cell of {softening.reference_cell} m"
-        if softening.internal_length is not None:
-            scale = f"over {softening.internal_length} m"
-        rate = f"{softening.law} softening, rate {softening.rate} {scale}"
-    gravity, locking = f"gravity {numerics.gravity}", f"locking treatment {numerics.locking}"
-    return f"{gravity}; {rate}; {locking}; {scene.field.correlation} correlation"
+def _words(row: Row) -> str:
+    interval, n = f" ({row.interval})" if row.interval else "", f", n = {row.n}" if row.n else ""
+    return f"{row.quantity}: {row.value}{interval}{n}"

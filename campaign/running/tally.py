@@ -14,7 +14,6 @@ from campaign.convergence import History, Rule, history, is_regular
 from campaign.record import FAILED, USABLE, Record, Status
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
-from campaign.statistics import Sample
 
 
 class Outcome(NamedTuple):
@@ -24,7 +23,6 @@ class Outcome(NamedTuple):
     status: Status
     final_runout: float
     wall_time: float
-    detached_volume: float = 0.0
 
 
 class Report(NamedTuple):
@@ -35,9 +33,9 @@ class Report(NamedTuple):
 
 
 def outcome_of(record: Record) -> Outcome:
-    """Return the part of a record that the stopping rule and the last words need."""
-    names = ("final_runout", "wall_time", "detached_volume")
-    return Outcome(record.realization, record.status, *(float(record.values[name]) for name in names))
+    """Return the part of a record that the stopping rule needs."""
+    runout, wall_time = record.values["final_runout"], record.values["wall_time"]
+    return Outcome(record.realization, record.status, float(runout), float(wall_time))
 
 
 class Tally:
@@ -96,15 +94,10 @@ class Tally:
         ends = [self.outcomes[k].status for k in range(self.prefix)]
         return {status: ends.count(status) for status in Status}
 
-    def runouts(self) -> Sample:
+    def runouts(self) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
         """Return the final run-out of the realizations in the prefix [m], NaN where it is not usable."""
         prefix = [self.outcomes[k] for k in range(self.prefix)]
         return np.array([each.final_runout if each.status in USABLE else math.nan for each in prefix], dtype=float)
-
-    def detached_volumes(self) -> Sample:
-        """Return what has come apart in the usable realizations of the prefix [m3/m]."""
-        prefix = [self.outcomes[k] for k in range(self.prefix)]
-        return np.array([each.detached_volume for each in prefix if each.status in USABLE], dtype=float)
 
     def history(self) -> History:
         """Return the estimates at the checkpoints of the prefix."""

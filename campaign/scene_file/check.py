@@ -7,10 +7,13 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from campaign.scene_file.document import Document
-from campaign.scene_file.rules import broken_rules
+from campaign.scene_file.rules import field, geometry, numerics, slide, soil
 from campaign.scene_file.wording import explain, wrong_value
 
 Key = tuple[str, ...]
+
+# A cell too large breaks rules of the ground as well, and is to be read first.
+SECTIONS = (numerics, geometry, slide, soil, field)
 
 
 def mistakes(document: Document, model: type[BaseModel], example: Document) -> list[str]:
@@ -31,7 +34,8 @@ def mistakes(document: Document, model: type[BaseModel], example: Document) -> l
     except ValidationError as error:
         details = error.errors(include_url=False)
     faulty = {tuple(part for part in error["loc"] if isinstance(part, str)) for error in details}
-    broken = broken_rules(_sound_values(document, model, faulty, example))
+    sound = _sound_values(document, model, faulty, example)
+    broken = (complaint for section in SECTIONS for complaint in section.RULES.broken(sound))
     return [
         *explain(details, document, model, example),
         *_geometry_choice(document),

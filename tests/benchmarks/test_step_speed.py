@@ -8,8 +8,8 @@ import pytest
 
 from campaign.realization import prepare, strengthen
 from campaign.scene import load_scene
+from solver.constants import STANDARD_GRAVITY
 from solver.march import March
-from solver.model import STANDARD_GRAVITY
 from solver.step import advance
 from solver.timestep import stable_step
 

@@ -7,7 +7,6 @@ from small_campaign import small_scene
 from campaign.discretisation import Discretisation, estimate, with_half_cell
 from campaign.realization import build_sampler, prepare
 from campaign.record import Status
-from campaign.running.summary import summary
 from campaign.running.tally import Outcome, tally_of
 from campaign.seeds import BASELINE
 
@@ -55,19 +54,10 @@ def test_only_pairs_of_which_both_count_enter(scene):
 def test_the_estimate_is_a_size_and_the_change_has_a_sign():
     """Student's t of 95 % and 3 degrees of freedom is 3.182: -1 +- 3.182 sqrt(1/15) = -1.82 to -0.18 m."""
     found = Discretisation(1.0, np.array([-0.4, -1.6, -0.8, -1.2]), -0.5, 0.95)
-    assert str(found) == "1.00 m; half the cell changes the mean by -1.00 m (-1.82 to -0.18 m), from 4 pairs"
+    assert found.error == pytest.approx(1.0)
+    assert found.interval == pytest.approx((-1.0, -1.82, -0.18, 4), abs=0.005)
 
 
-@pytest.mark.parametrize(
-    ("differences", "said"),
-    [([], "not estimated: no pair"), ([np.nan], "not estimated: no pair"), ([0.5], "by +0.50 m, from 1 pair")],
-)
-def test_too_few_pairs_are_no_interval(differences, said):
-    assert said in str(Discretisation(1.0, np.array(differences, dtype=float), 0.0, 0.95))
-
-
-def test_the_summary_tells_it_or_how_to_get_it(scene):
-    tally = account(scene, 9.0 + 0.1 * np.arange(13))
-    found = Discretisation(2.0, np.array([0.4, 0.6]), 0.5, 0.95)
-    assert "  discretisation 0.50 m; half the cell" in summary(scene, tally, "done", found)
-    assert "give campaign.discretisation_pairs" in summary(scene, tally, "done", None)
+@pytest.mark.parametrize("differences", [[], [np.nan], [0.5]])
+def test_too_few_pairs_are_no_interval(differences):
+    assert not Discretisation(1.0, np.array(differences, dtype=float), 0.0, 0.95).interval.is_known

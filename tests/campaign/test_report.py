@@ -9,14 +9,18 @@ import pytest
 import xarray as xr
 from small_campaign import conclude, made_up, run, small_scene
 
-from campaign import budget, report
+from campaign import report
+from campaign.answer import answer
+from campaign.budget import error_budget
 from campaign.exit_codes import RefusalError
 from campaign.figures import style
-from campaign.realization import prepare
+from campaign.realization import build_sampler, prepare
 from campaign.record import Status
 from campaign.report import write_report
 from campaign.results import Results, read_results
+from campaign.running.summary import summary
 from campaign.seeds import BASELINE
+from campaign.snapshots import see_again
 
 PNG = b"\x89PNG\r\n\x1a\n"
 FIGURES = 8
@@ -90,6 +94,16 @@ def test_the_numbers_are_the_datasets(page, campaign):
     assert f"it would run {deterministic:.2f} m, which {100 * exceeding:.0f} % of the slides exceed" in page.text
 
 
+def test_the_last_words_on_the_terminal_are_those_of_the_page(page, campaign):
+    results = read_results(campaign)
+    words = re.sub(r"\s+", " ", summary(results))
+    assert answer(results) in words
+    assert answer(results) in page.text
+    for row in error_budget(results):
+        assert f"{row.source} {row.quantity}: {row.value} ({row.interval})" in words
+        assert f"{row.source}{row.quantity}{row.value}{row.interval}{row.n}" in page.text
+
+
 def test_every_figure_is_there_with_words(page, campaign):
     assert len(page.images) == FIGURES
     assert "left out" not in page.text
@@ -103,6 +117,13 @@ def test_every_figure_is_there_with_words(page, campaign):
 
 def test_the_drawn_slides_are_the_recorded_ones(page):
     assert "exactly as recorded" not in page.text
+
+
+def test_the_runout_in_a_drawing_is_the_recorded_one_whatever_counts_as_a_slide(tmp_path):
+    """No particle moves 8 m, so nothing is a slide here; with the paper's 0.1 m the run-out would be 2.8 m."""
+    setup = prepare(small_scene("slide.displaced=8 m", "slide.failed=9 m"))
+    seen = see_again(setup, build_sampler(setup, tmp_path), BASELINE)
+    assert seen.end.runout == seen.record.values["final_runout"] == 0.0
 
 
 def test_the_page_needs_nothing_from_outside(page):
@@ -126,7 +147,7 @@ def test_few_realizations_give_a_page(tmp_path, setup, n):
 
 def test_no_slide_at_all(tmp_path, setup):
     page = made_up_page(tmp_path, setup, [0.0] * 12, [Status.no_slide] * 12)
-    assert "No slide: none of the 12 realizations" in page.text
+    assert "No answer: none of the 12 realizations" in page.text
     assert len(page.images) == 2  # where the ground moves, the deterministic slide
 
 
@@ -157,16 +178,16 @@ def test_convergence_is_told(tmp_path, setup):
 def test_a_discretisation_error_is_used_where_it_is_known(campaign):
     """Student's t of 95 % and 2 degrees of freedom is 4.303: 1 +- 4.303 0.5 / sqrt(3)."""
     results = read_results(campaign)
-    assert "errors of the mesh and of the model are not among them" in budget.answer(results)
+    assert "errors of the mesh and of the model are not among them" in answer(results)
     pairs = {
         "paired_difference": ("pair", [0.5, 1.0, np.nan, 1.5]),
         "deterministic_paired_difference": ((), 0.7),
     }
     known = Results(results.data.assign(pairs), results.scene)
     assert "the mesh adds about 1.00 m to that of the mean (half the cell changes it by +1.00 ± 1.24 m)" in (
-        budget.answer(known)
+        answer(known)
     )
-    assert budget.error_budget(known)[-2][2:] == ("1.00 m (+1.00 m)", "-0.24 to +2.24 m", "3")
+    assert error_budget(known)[-2][2:] == ("1.00 m (+1.00 m)", "-0.24 to +2.24 m", "3")
 
 
 def test_without_a_simulation_the_other_figures_are_drawn(campaign, monkeypatch):

@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 
 from solver._jit import kernel
-from solver.elastic import elastic_increment
+from solver.hooke import elastic_increment
 from solver.kinematics import rotate_stress
 from solver.mohr_coulomb import mohr_coulomb, update_stress
 from solver.softening import exp_decay, remaining_share, sine

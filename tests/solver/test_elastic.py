@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pointwise import stress_of
 
-from solver.elastic import bulk_modulus, elastic_energy, p_wave_speed, shear_modulus
+from solver.elastic import bulk_modulus, p_wave_speed, shear_modulus
 
 E, NU, DENSITY = 70e6, 0.35, 2100.0
 K, G = bulk_modulus(E, NU), shear_modulus(E, NU)
@@ -27,10 +27,3 @@ def test_stress_is_the_inverse_of_hookes_compliance():
     trace = xx + yy + zz
     found = [((1.0 + NU) * s - NU * trace) / E for s in (xx, yy, zz)] + [(1.0 + NU) * xy / E]
     np.testing.assert_allclose(found, [strain[0], strain[1], 0.0, strain[2]], rtol=1e-13, atol=1e-17)
-
-
-def test_energy_is_half_of_stress_times_strain():
-    e_xx, e_yy, e_xy = 1e-3, -4e-3, 2.5e-3
-    xx, yy, zz, xy = stress_of(e_xx, e_yy, e_xy, K, G)
-    half = 0.5 * (xx * e_xx + yy * e_yy + 2.0 * xy * e_xy)
-    assert elastic_energy(xx, yy, zz, xy, K, G) == pytest.approx(half, rel=1e-13)

@@ -5,9 +5,9 @@ import pytest
 from small_slope import small_model
 
 from solver import observables
+from solver.constants import STANDARD_GRAVITY
 from solver.geometry import Surface, fill_ground
 from solver.gravity import LOCAL_DAMPING, NotSettledError, in_situ_state, lay_geostatic_stress, unbalanced_share
-from solver.model import STANDARD_GRAVITY
 from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace
 from solver.timestep import stable_step
 

@@ -8,10 +8,10 @@ import pytest
 from small_slope import small_model, with_strength
 
 from solver.basis import half_length_in_cells
+from solver.constants import STANDARD_GRAVITY
 from solver.geometry import fill_ground
 from solver.gravity import in_situ_state
 from solver.march import March, Outcome, RestDetector, run
-from solver.model import STANDARD_GRAVITY
 from solver.operations import GRAVITY_WORK
 from solver.particles import copy_particles
 from solver.timestep import even_steps, largest_courant, stable_step

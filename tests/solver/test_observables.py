@@ -7,6 +7,7 @@ from solver import observables
 from solver.geometry import Surface, fill_ground
 from solver.grid import allocate_grid
 from solver.particles import allocate_particles, copy_particles
+from solver.slide import PAPER
 from solver.step import allocate_workspace, spread_all
 
 CUT = Surface(np.array([0.0, 10.0, 10.0, 30.0]), np.array([8.0, 8.0, 4.0, 4.0]))  # toe at x = 10, y = 4
@@ -21,40 +22,40 @@ def start_and_now(x, y, shift, volume=1.0):
 
 def test_runout_is_the_advance_of_the_front_of_the_slope_body_beyond_the_toe():
     start, now = start_and_now([9.0, 8.0, 12.0], [5.0, 6.0, 3.0], [3.0, 5.5, 9.0])
-    assert observables.runout(now, start, CUT) == pytest.approx(3.5)  # not the third, which lay below the toe
+    assert observables.runout(now, start, CUT, PAPER) == pytest.approx(3.5)  # not the third, which lay below the toe
 
 
 def test_runout_counts_only_particles_displaced_more_than_a_tenth_of_a_metre():
     start, now = start_and_now([9.95], [5.0], [0.099])
-    assert observables.runout(now, start, CUT) == 0.0
+    assert observables.runout(now, start, CUT, PAPER) == 0.0
     start, now = start_and_now([9.95], [5.0], [0.101])
-    assert observables.runout(now, start, CUT) == pytest.approx(0.051)
+    assert observables.runout(now, start, CUT, PAPER) == pytest.approx(0.051)
 
 
 def test_runout_behind_the_toe_is_zero():
     start, now = start_and_now([2.0], [5.0], [3.0])
-    assert observables.runout(now, start, CUT) == 0.0
-    assert observables.runout_mass(now, start, CUT) == 0.0
+    assert observables.runout(now, start, CUT, PAPER) == 0.0
+    assert observables.runout_mass(now, start, CUT, PAPER) == 0.0
 
 
 def test_runout_of_nothing_is_zero():
     start, now = start_and_now([2.0, 3.0], [5.0, 6.0], [0.0, 0.0])
-    assert observables.runout(now, start, CUT) == observables.runout_mass(now, start, CUT) == 0.0
-    assert observables.sliding_volume(now, start) == 0.0
+    assert observables.runout(now, start, CUT, PAPER) == observables.runout_mass(now, start, CUT, PAPER) == 0.0
+    assert observables.sliding_volume(now, start, PAPER) == 0.0
 
 
 def test_mass_front_is_interpolated_between_particles():
     """Areas of 0.1 m2 at 14, 13, 12, 11 m: 0.25 m2 lies ahead of 12 m, where half of the third particle does."""
     start, now = start_and_now([9.0, 8.0, 7.0, 6.0], [5.0] * 4, 5.0, volume=0.1)
-    assert observables.runout_mass(now, start, CUT) == pytest.approx(2.0)
+    assert observables.runout_mass(now, start, CUT, PAPER) == pytest.approx(2.0)
     start.volume[0] = 0.15
-    assert observables.runout_mass(now, start, CUT) == pytest.approx(2.0 + 0.5)
+    assert observables.runout_mass(now, start, CUT, PAPER) == pytest.approx(2.0 + 0.5)
 
 
 def test_ground_that_has_come_apart_weighs_no_more_in_the_mass_front():
     start, now = start_and_now([9.0, 8.0, 7.0, 6.0], [5.0] * 4, 5.0, volume=0.1)
     now.volume[:] = 5.0
-    assert observables.runout_mass(now, start, CUT) == pytest.approx(2.0)
+    assert observables.runout_mass(now, start, CUT, PAPER) == pytest.approx(2.0)
 
 
 def test_mass_front_does_not_depend_on_the_order_of_the_particles():
@@ -62,7 +63,9 @@ def test_mass_front_does_not_depend_on_the_order_of_the_particles():
     start, now = start_and_now(rng.uniform(5, 10, 200), rng.uniform(4.1, 8, 200), rng.uniform(0, 9, 200), volume=0.06)
     order = rng.permutation(200)
     shuffled = [type(p)(*(array[order] for array in p)) for p in (now, start)]
-    assert observables.runout_mass(*shuffled, CUT) == pytest.approx(observables.runout_mass(now, start, CUT), rel=1e-14)
+    assert observables.runout_mass(*shuffled, CUT, PAPER) == pytest.approx(
+        observables.runout_mass(now, start, CUT, PAPER), rel=1e-14
+    )
 
 
 def test_mass_front_changes_continuously():
@@ -71,19 +74,19 @@ def test_mass_front_changes_continuously():
     fronts = []
     for overtaker in np.linspace(0.0, 6.0, 601):
         now.x[3] = 9.0 + overtaker
-        fronts.append(observables.runout_mass(now, start, CUT))
+        fronts.append(observables.runout_mass(now, start, CUT, PAPER))
     assert np.abs(np.diff(fronts)).max() <= 0.01 + 1e-12
 
 
 def test_mass_front_of_less_than_its_area_is_zero():
     start, now = start_and_now([9.0, 8.0], [5.0, 5.0], 5.0, volume=0.1)
-    assert observables.runout_mass(now, start, CUT) == 0.0
+    assert observables.runout_mass(now, start, CUT, PAPER) == 0.0
 
 
 def test_sliding_volume_is_the_area_before_the_slide():
     start, now = start_and_now([1.0, 2.0, 3.0], [5.0] * 3, [0.05, 0.2, 1.0], volume=0.0625)
     now.volume[:] *= 1.5
-    assert observables.sliding_volume(now, start) == pytest.approx(0.125)
+    assert observables.sliding_volume(now, start, PAPER) == pytest.approx(0.125)
 
 
 def test_deposit_surface_of_level_ground_is_its_height():

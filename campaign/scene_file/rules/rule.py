@@ -1,0 +1,38 @@
+"""What a rule is, and how a section lists its own."""
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+Check = Callable[..., str | None]
+
+
+class Rule(NamedTuple):
+    """A check on the values of some keys; a complaint is reported at the first of them."""
+
+    keys: tuple[str, ...]
+    check: Check
+
+
+class Rules(list[Rule]):
+    """The rules of one section, in the order of their complaints."""
+
+    def on(self, *keys: str) -> Callable[[Check], Check]:
+        """Add a check that takes the values of `keys` and returns a complaint, worded to follow "..., but"."""
+
+        def add(check: Check) -> Check:
+            self.append(Rule(keys, check))
+            return check
+
+        return add
+
+    def broken(self, values: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+        """Yield key and complaint of every broken rule whose keys all have a value.
+
+        Parameters
+        ----------
+        values
+            SI values by dotted key; keys that are absent or wrong by themselves are left out.
+        """
+        for keys, check in self:
+            if all(key in values for key in keys) and (complaint := check(*(values[key] for key in keys))):
+                yield keys[0], complaint

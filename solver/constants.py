@@ -1,0 +1,3 @@
+"""Constants of nature."""
+
+STANDARD_GRAVITY = 9.81  # m/s2
