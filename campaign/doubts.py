@@ -72,7 +72,7 @@ def detached_fronts(volumes: Sample, mass_runouts: Sample, front_area: float) ->
         return []
     doubt = (
         f"In {apart} of {len(volumes)} slides the front-most ground has come apart, too far for the nodes to join it "
-        f"to the slide: the run-out is that of this debris. Use final_runout_mass "
+        "to the slide: the run-out is that of this debris. Use final_runout_mass "
         f"({mass_runouts.mean():.2f} m on average)"
     )
     if beyond == 0:
