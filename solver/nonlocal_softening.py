@@ -18,14 +18,18 @@ Int. J. Eng. Sci. 41:1553), but force and dissipation no longer depend on how th
 ``kappa`` is carried by the particle, so ground that slides away remembers where it was weakened.
 
 On the grid: particles are pooled in cells (``mean_dilation``), sums of volume and of volume times increment are
-smoothed alike, and their quotient is read back. Pooling and reading have a variance of their own, about
-``2 (h^2 / 12 + l_p^2 / 3)`` (a particle's share of a cell is the convolution of two boxes, ``h`` and ``2 l_p`` wide);
-the smoothing supplies the rest of ``sigma^2``. Cells too coarse for that average over the ``l`` they can, and the rate
-is raised in proportion.
+smoothed alike, and their quotient is read back. Three variances add up to ``sigma^2``. Pooling and reading have about
+``2 (h^2 / 12 + l_p^2 / 3)`` (a particle's share of a cell is the convolution of two boxes, ``h`` and ``2 l_p`` wide).
+A band is no ``delta``: across the grid it is 2.1 cells thick by itself, from the force that shears a ring of ground
+(``tests/verification/test_softening_ring.py``: 2.11 cells with local softening, and 2.0 to 2.6 with this).
+The smoothing supplies the rest. Cells too coarse for that, ``h > l / 2.4``, smooth nothing, and the rate is raised in
+proportion to the thickness. There the law is local softening with its rate scaled by the cell; on finer cells it no
+longer depends on them.
 
-What cells cannot resolve still shows: a band across the grid is about two cells thick by itself, which widens the
-average. Along the base of a slide ``int kappa dn / max(kappa)`` was 1.53 m and 1.27 m for ``l = 1 m`` in cells of
-0.5 m and 0.25 m, about ``l + h``. So coarse cells soften too little, and run-out still grows as cells shrink.
+Without the band's own thickness in the sum coarse cells soften too little: along the base of a slide
+``int kappa dn / max(kappa)`` was 1.53 m and 1.27 m for ``l = 1 m`` in cells of 0.5 m and 0.25 m, and run-out grew by
+a quarter from cells of 1 m to 0.25 m. Only a band that keeps to one row of cells, as in a strip sheared along the grid,
+is thinner than the sum allows for.
 """
 
 import math
@@ -35,6 +39,7 @@ import numpy as np
 from solver._jit import kernel, law
 from solver.mean_dilation import pool, read
 
+BAND_THICKNESS = 2.1  # cells, of a band of local plastic strain that crosses the grid
 _MOST_TO_NEIGHBOURS = 0.25  # of one pass of the filter: it takes out the shortest wave and turns none over
 
 
@@ -43,10 +48,15 @@ def pooling_variance(half_length: float) -> float:
     return 2.0 * (1.0 / 12.0 + half_length**2 / 3.0)
 
 
+def least_thickness(half_length: float) -> float:
+    """Return the thickness, in cells, over which a band weakens if nothing is smoothed: ``sqrt(2 pi)`` deviations."""
+    return math.hypot(math.sqrt(2.0 * math.pi * pooling_variance(half_length)), BAND_THICKNESS)
+
+
 def coarse_rate_factor(internal_length: float, cell_size: float, half_length: float) -> float:
-    """Return what the softening rate is multiplied by because the cells cannot average over less: at least 1."""
-    finest = math.sqrt(2.0 * math.pi * pooling_variance(half_length)) * cell_size
-    return max(1.0, finest / internal_length) if internal_length > 0.0 else 1.0
+    """Return what the rate is multiplied by because bands are thicker than the internal length: at least 1."""
+    thickness = least_thickness(half_length) * cell_size
+    return max(1.0, thickness / internal_length) if internal_length > 0.0 else 1.0
 
 
 def smoothing_weights(internal_length: float, cell_size: float, half_length: float) -> np.ndarray:
@@ -61,7 +71,8 @@ def smoothing_weights(internal_length: float, cell_size: float, half_length: flo
     half_length : float
         Of a particle's domain, in cells.
     """
-    variance = (internal_length / cell_size) ** 2 / (2.0 * math.pi) - pooling_variance(half_length)
+    thickness = internal_length / cell_size
+    variance = (thickness**2 - least_thickness(half_length) ** 2) / (2.0 * math.pi)
     passes = max(0, math.ceil(variance / (2.0 * _MOST_TO_NEIGHBOURS)))
     weights = np.ones(1)
     for _ in range(passes):

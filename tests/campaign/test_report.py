@@ -120,8 +120,8 @@ def test_the_drawn_slides_are_the_recorded_ones(page):
 
 
 def test_the_runout_in_a_drawing_is_the_recorded_one_whatever_counts_as_a_slide(tmp_path):
-    """No particle moves 8 m, so nothing is a slide here; with the paper's 0.1 m the run-out would be 2.8 m."""
-    setup = prepare(small_scene("slide.displaced=8 m", "slide.failed=9 m"))
+    """No particle moves 8 m in 3 s, so nothing is a slide here; with the paper's 0.1 m the run-out would be 3.2 m."""
+    setup = prepare(small_scene("slide.displaced=8 m", "slide.failed=9 m", "numerics.end_time=3 s"))
     seen = see_again(setup, build_sampler(setup, tmp_path), BASELINE)
     assert seen.end.runout == seen.record.values["final_runout"] == 0.0
 

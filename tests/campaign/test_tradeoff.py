@@ -12,6 +12,7 @@ from campaign.exit_codes import RefusalError
 from campaign.figures.style import in_style
 from campaign.figures.tradeoff import chart
 from campaign.realization import build_sampler, prepare, simulate
+from campaign.scene import load_scene
 from campaign.tradeoff import OWN, Tradeoff, Trial, settings
 from campaign.tradeoff_report import rows, table
 
@@ -87,7 +88,7 @@ def test_a_short_comparison_on_the_command_line(tmp_path, monkeypatch, capsys):
     assert "reference" in capsys.readouterr().out
     with xr.open_dataset(tmp_path / "t" / "tradeoff.nc") as data:
         kept = data.load()
-    setup = prepare(small_scene(*SHORT))
+    setup = prepare(load_scene("ma2023", SHORT))
     record = simulate(setup, build_sampler(setup, tmp_path), 0, lambda: False)
     assert float(kept.final_runout.sel(setting=OWN, realization=0)) == record.values["final_runout"]
     with (tmp_path / "t" / "tradeoff.csv").open() as file:

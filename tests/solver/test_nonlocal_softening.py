@@ -9,9 +9,10 @@ from solver.gravity import in_situ_state
 from solver.grid import allocate_grid
 from solver.march import run
 from solver.nonlocal_softening import (
+    BAND_THICKNESS,
     average_plastic_strain,
     coarse_rate_factor,
-    pooling_variance,
+    least_thickness,
     smoothing_weights,
 )
 
@@ -29,13 +30,13 @@ def averaged(cell, surface, plastic_strain_at):
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0, 3.7, 8.0])
-def test_the_filter_keeps_the_sum_and_has_the_variance_that_pooling_lacks(ratio):
-    """``sigma^2 = l^2 / 2 pi`` in cells squared, less the variance of pooling; here the cell is 1 m."""
+def test_the_filter_keeps_the_sum_and_has_the_variance_that_pooling_and_the_band_lack(ratio):
+    """``sigma^2 = l^2 / 2 pi`` in cells squared, less theirs; here the cell is 1 m."""
     weights = smoothing_weights(ratio, 1.0, 0.25)
     k = np.arange(weights.size) - weights.size // 2
     assert np.all(weights >= 0.0)
     np.testing.assert_allclose(weights.sum(), 1.0, rtol=1e-14)
-    expected = max(0.0, ratio**2 / (2.0 * np.pi) - pooling_variance(0.25))
+    expected = max(0.0, ratio**2 - least_thickness(0.25) ** 2) / (2.0 * np.pi)
     np.testing.assert_allclose(weights @ k**2, expected, atol=1e-13)
 
 
@@ -48,32 +49,31 @@ def test_even_plastic_strain_stays_as_it_is_up_to_walls_and_surface():
 
 
 @pytest.mark.parametrize("angle", [0.0, 30.0, 45.0])
-def test_a_thin_band_weakens_its_middle_as_if_it_were_one_internal_length_thick(angle):
-    """``u delta(n)`` becomes ``u / l`` where ``n = 0``, in any direction; within 3 % at ten cells a length.
+def test_a_band_weakens_its_middle_as_if_it_were_one_internal_length_thick(angle):
+    """``eps_p`` of integral ``u`` across becomes ``u / l`` in the middle, in any direction; 3 % at ten cells a length.
 
-    The band is a hat of half width ``w`` for ``delta``, so that its area hardly depends on the lattice; it adds
-    ``w^2 / 6`` to the variance.
+    The band is as thick as the grid makes them: a Gaussian whose integral over its height is ``BAND_THICKNESS`` cells.
     """
     normal = np.array([-np.sin(np.radians(angle)), np.cos(np.radians(angle))])
-    half_width = 0.2
+    thickness = BAND_THICKNESS * 0.1
 
     def distance(x, y):
         return (x - 4.0) * normal[0] + (y - 4.0) * normal[1]
 
     def band(x, y):
-        return np.maximum(0.0, 1.0 - abs(distance(x, y)) / half_width) / half_width
+        return np.exp(-np.pi * (distance(x, y) / thickness) ** 2) / thickness
 
     particles = averaged(0.1, LEVEL, band)
     n = distance(particles.x, particles.y)
     middle = (np.hypot(particles.x - 4.0, particles.y - 4.0) < 1.5) & (abs(n) < 0.05)
-    variance = LENGTH**2 / (2.0 * np.pi) + half_width**2 / 6.0
-    np.testing.assert_allclose(particles.plastic_strain[middle], 1.0 / np.sqrt(2.0 * np.pi * variance), rtol=0.03)
+    np.testing.assert_allclose(particles.plastic_strain[middle], 1.0 / LENGTH, rtol=0.03)
 
 
 def test_cells_too_coarse_for_the_length_raise_the_rate():
-    """A band no wider than the cell averages over ``sqrt(2 pi 2 (1/12 + l_p^2/3)) h``, 1.14 h at four a cell."""
-    assert coarse_rate_factor(LENGTH, 0.5, 0.25) == 1.0
-    np.testing.assert_allclose(coarse_rate_factor(LENGTH, 2.0, 0.25), 2.287, rtol=1e-3)
+    """Pooling and reading average over ``sqrt(2 pi 2 (1/12 + l_p^2/3))`` cells, 1.14 at four a cell; bands add 2.1."""
+    np.testing.assert_allclose(least_thickness(0.25), np.hypot(1.143, 2.1), rtol=1e-3)
+    assert coarse_rate_factor(LENGTH, 0.4, 0.25) == 1.0
+    np.testing.assert_allclose(coarse_rate_factor(LENGTH, 2.0, 0.25), 4.782, rtol=1e-3)
     assert coarse_rate_factor(0.0, 2.0, 0.25) == 1.0
 
 

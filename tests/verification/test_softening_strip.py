@@ -1,19 +1,22 @@
-"""Softening in a band: force against displacement of a sheared strip on cells of ``h``, ``h / 2`` and ``h / 4``.
+"""Softening in a band along the grid: force against displacement of a sheared strip.
 
-The middle of the strip is 5 % weaker, so all slip ends up there. Local softening at a fixed rate gives a curve for each
-mesh. With non-local softening a band of any thickness softens with its slip ``u`` as ``kappa = u / (sqrt(3) l)``
-(``solver.nonlocal_softening``), and with the elastic strip in series the stress ``tau`` at displacement ``U`` solves
+The middle of the strip is 5 % weaker, so all slip ends up there, in one row of cells. With non-local softening a band
+of any thickness softens with its slip ``u`` as ``kappa = u / (sqrt(3) l)`` (``solver.nonlocal_softening``), and with
+the elastic strip in series the stress ``tau`` at displacement ``U`` solves
 
     tau = c_r + (c_p - c_r) exp(-eta kappa),   u = U - tau H / G
 
-in the quasi-static limit; tensor shear ``gamma / 2`` of pure plastic shear is ``eps_p = gamma / sqrt(3)``.
+in the quasi-static limit; tensor shear ``gamma / 2`` of pure plastic shear is ``eps_p = gamma / sqrt(3)``. A band of
+one row is half as thick as bands across the grid (``test_softening_ring``), which the average allows for, so it
+softens too soon on coarse cells.
 """
 
 import numpy as np
 from shear_strip import COARSE_CELL, HEIGHT, PEAK, RESIDUAL, WEAK_SHARE, shear_force, shear_modulus_of_strip
 
 CELLS = COARSE_CELL * np.array([1.0, 0.5, 0.25])
-RATE, LENGTH = 3.0, 1.0
+RATE, LENGTH = 6.0, 2.0  # 4, 8 and 16 cells in the length
+LOCAL_RATE = 3.0
 
 
 def curves(cells, rates, internal_length):
@@ -42,18 +45,19 @@ def spread(stress):
     return float(np.max(np.ptp(stress, axis=0) / stress[-1]))
 
 
-def test_non_local_softening_gives_one_curve_on_all_meshes():
-    """Within 5 % of each other, and the finest within 2.5 % of the closed form (inertia of the drive included)."""
+def test_non_local_softening_converges_to_the_closed_form():
+    """Within 5 % on the coarsest mesh and 2.5 % on the others (inertia of the drive included)."""
     displacement, stress = curves(CELLS, [RATE] * 3, LENGTH)
-    assert spread(stress) < 0.05
-    np.testing.assert_allclose(stress[-1], closed_form(displacement), rtol=0.025)
+    error = np.max(np.abs(stress / closed_form(displacement) - 1.0), axis=1)
+    assert error[0] < 0.05
+    assert np.all(error[1:] < 0.025)
 
 
 def test_local_softening_gives_a_curve_for_each_mesh():
     """At the same rate half the cell uses up strength twice as fast."""
-    assert spread(curves(CELLS[:2], [RATE] * 2, 0.0)[1]) > 0.15
+    assert spread(curves(CELLS[:2], [LOCAL_RATE] * 2, 0.0)[1]) > 0.15
 
 
 def test_local_softening_scaled_with_the_cell_gives_one_curve_in_a_band():
     """The band is one cell, so the rate in proportion to the cell keeps slip to strength: what ``rate_at`` is for."""
-    assert spread(curves(CELLS[:2], [RATE, 0.5 * RATE], 0.0)[1]) < 0.05
+    assert spread(curves(CELLS[:2], [LOCAL_RATE, 0.5 * LOCAL_RATE], 0.0)[1]) < 0.05
