@@ -90,7 +90,7 @@ class March:
         """Refuse a step that is too large before it is taken.
 
         Shortly beyond its limit a step shakes yielding ground, which eats the energy that it creates: the slide runs
-        farther by a fifth and more while the energy is balanced to a thousandth.
+        farther by a quarter while the energy is balanced to two thousandths.
         """
         model = self.model
         stress_update = list(STRESS_UPDATES)[model.scheme.stress_update]
