@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from campaign.budget import exceedance_interval, metres, percents
-from campaign.doubts import doubts
+from campaign.doubts import detached_fronts, doubts
 from campaign.record import Status
 from campaign.results import Results
 from campaign.statistics import Interval, mean_interval, quantile_interval, std_interval
@@ -52,10 +52,12 @@ def answer(results: Results) -> str:
 
 
 def reasons_for_doubt(results: Results) -> list[str]:
-    """Return sentences on why the intervals may not hold."""
+    """Return sentences on why the run-outs or their intervals may not hold."""
     unsettled, n = results.by_status()[Status.not_settled], results.usable_runouts.size
     censored = f"{unsettled} of the {n} run-outs are lower bounds: those slides were still moving at numerics.end_time."
-    return [*doubts(results.runouts), *([censored] if unsettled else [])]
+    volumes, mass_runouts = results.usable("detached_volume"), results.usable("final_runout_mass")
+    apart = detached_fronts(volumes, mass_runouts, results.scene.slide.front_area)
+    return [*doubts(results.runouts), *apart, *([censored] if unsettled else [])]
 
 
 def outcomes(results: Results) -> list[Outcome]:

@@ -94,7 +94,7 @@ def _per_realization(records: Sequence[Record]) -> Variables:
     variables = {name: _stack(name, records) for name, quantity in QUANTITIES.items() if name not in TOTALS}
     variables["status"] = _status(records)
     reason = np.array([record.reason for record in records], dtype=object)
-    variables["reason"] = xr.Variable("realization", reason, {"long_name": "why a realization failed"})
+    variables["reason"] = xr.Variable("realization", reason, {"long_name": "why a realization failed or is flagged"})
     return variables
 
 

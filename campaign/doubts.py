@@ -1,5 +1,6 @@
-"""Reasons not to trust the intervals: a few runaway realizations can carry the variance.
+"""Reasons not to trust the run-outs or their intervals.
 
+Ground that has come apart from the slide is not its front, and a few runaway realizations can carry the variance.
 Before the first of them has appeared no formula can know: with 3 % of runaways, 95 % intervals of the variance from 30
 realizations hold in 60 % of the campaigns.
 """
@@ -54,3 +55,26 @@ def heavy_realization(values: Sample) -> list[str]:
         f"Realization {largest} alone, with a run-out of {values[largest]:.4g} m, makes {100 * share:.0f} % of the "
         "variance. Replay it before the variance is used."
     ]
+
+
+def detached_fronts(volumes: Sample, mass_runouts: Sample, front_area: float) -> list[str]:
+    """Doubt run-outs that single pieces decide, ahead of the slide and no longer joined to it.
+
+    Parameters
+    ----------
+    volumes, mass_runouts : array (n,)
+        What has come apart in the usable realizations [m3/m], and their `final_runout_mass` [m].
+    front_area : float
+        What `final_runout_mass` leaves ahead of it [m2]; from that much debris on it is measured in debris, too.
+    """
+    apart, beyond = np.count_nonzero(volumes > 0.0), np.count_nonzero(volumes >= front_area)
+    if apart == 0:
+        return []
+    doubt = (
+        f"In {apart} of {len(volumes)} slides the front-most ground has come apart, too far for the nodes to join it "
+        "to the slide: the run-out is that of this debris. Use final_runout_mass "
+        f"({mass_runouts.mean():.2f} m on average)"
+    )
+    if beyond == 0:
+        return [f"{doubt}."]
+    return [f"{doubt}, and raise slide.front_area: in {beyond} there is more debris than that."]

@@ -15,7 +15,7 @@ from campaign.scene import Scene
 PACKAGE = Path(__file__).parent
 SOLVER = PACKAGE.parent / "solver"
 
-REALIZATION_SOURCES = ("seeds", "fields/*", "random_field", "realization")
+REALIZATION_SOURCES = ("seeds", "fields/*", "random_field", "detachment", "realization")
 """The modules of `campaign` that, with `solver`, decide what realization k is."""
 
 LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "netCDF4", "xarray", "mpi4py")

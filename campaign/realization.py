@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from campaign.detachment import CAME_APART, detached_volume
 from campaign.exit_codes import RefusalError
 from campaign.random_field import StrengthSampler, strength_sampler
 from campaign.record import Record, Status, Value
@@ -210,7 +211,8 @@ def simulate(
     history = run(setup.model, start, setup.coordinates["time"], watch)
     values = _series(history) | _final_values(setup, start, history)
     values["wall_time"] = time.perf_counter() - begin
-    return Record(realization, status_of(history, setup.model.slide), history.reason, values)
+    reason = CAME_APART if values["detached_volume"] > 0.0 else history.reason
+    return Record(realization, status_of(history, setup.model.slide), reason, values)
 
 
 def status_of(history: History, slide: Slide) -> Status:
@@ -237,7 +239,7 @@ def _final_values(setup: Setup, start: Particles, history: History) -> dict[str,
     shared: dict[str, Value] = {"steps": history.steps, "settle_time": history.settle_time}
     if history.has_failed:
         nothing: dict[str, Any] = dict.fromkeys(
-            ("final_runout", "final_runout_mass", "sliding_volume", "energy_error"), np.nan
+            ("final_runout", "final_runout_mass", "sliding_volume", "detached_volume", "energy_error"), np.nan
         )
         no_surface = np.full(setup.coordinates["x"].size, np.nan)
         return shared | nothing | {"deposit_surface": no_surface, "displaced": np.zeros(setup.n_particles, np.uint8)}
@@ -247,6 +249,7 @@ def _final_values(setup: Setup, start: Particles, history: History) -> dict[str,
         "final_runout": history.runout[-1],
         "final_runout_mass": observables.runout_mass(particles, start, model.surface, model.slide),
         "sliding_volume": observables.sliding_volume(particles, start, model.slide),
+        "detached_volume": detached_volume(particles, start, model.surface, model.allocate_grid()),
         "energy_error": history.energy_error,
         "deposit_surface": observables.deposit_surface(settled, half_spacing, column_edges(model)),
         "displaced": observables.is_displaced(particles, start, model.slide).astype(np.uint8),

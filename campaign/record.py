@@ -51,6 +51,7 @@ QUANTITIES: dict[str, Quantity] = {
         (), "m", "final advance of the front beyond which slide.front_area of slid material lies"
     ),
     "sliding_volume": Quantity((), "m3/m", "volume displaced farther than slide.displaced, per metre run"),
+    "detached_volume": Quantity((), "m3/m", "volume that has come apart and lies ahead of the slide, per metre run"),
     "settle_time": Quantity((), "s", "time from release to rest"),
     "energy_error": Quantity((), "1", "energy imbalance over released potential energy"),
     "wall_time": Quantity((), "s", "wall-clock time of the simulation"),
@@ -70,7 +71,7 @@ class Record:
     realization
         Its id; `BASELINE` is the deterministic run.
     status, reason
-        How it ended, and the sentence behind a status that is a failure ("" otherwise).
+        How it ended, and the sentence behind a failure or a flag ("" where there is neither).
     values
         One entry for each name in `QUANTITIES`, in the units given there.
     """

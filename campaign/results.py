@@ -61,8 +61,7 @@ class Results:
     @property
     def usable_runouts(self) -> Sample:
         """Final run-outs that count, in m, in the order of realizations."""
-        runouts: Sample = self.data["final_runout"].values[self.is_usable]
-        return runouts
+        return self.usable("final_runout")
 
     @property
     def deterministic(self) -> float:
@@ -77,6 +76,11 @@ class Results:
             return None
         differences, deterministic = self.data["paired_difference"], self.data["deterministic_paired_difference"]
         return Discretisation(self.scene.numerics.cell, differences.values, float(deterministic), self.confidence)
+
+    def usable(self, quantity: str) -> Sample:
+        """Return a scalar of the realizations whose run-out counts, in their order."""
+        values: Sample = self.data[quantity].values[self.is_usable]
+        return values
 
     def has_status(self, statuses: Iterable[Status]) -> NDArray[np.bool_]:
         """Whether a realization ended in one of these ways, (realization,)."""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from campaign.doubts import doubts
+from campaign.doubts import detached_fronts, doubts
 
 
 def normal_runouts(seed, n):
@@ -40,3 +40,16 @@ def test_one_runaway_is_named_by_its_realization():
 def test_equal_run_outs_are_suspicious():
     (doubt,) = doubts(np.full(50, 10.8))
     assert doubt.startswith("All 50 run-outs are equal")
+
+
+def test_a_front_that_has_come_apart_is_told():
+    runouts = np.array([7.0, 8.0, 9.0, 10.0])
+    assert detached_fronts(np.zeros(4), runouts, 0.25) == []
+    (doubt,) = detached_fronts(np.array([0.0, 0.1, 0.2, 0.0]), runouts, 0.25)
+    assert doubt.startswith("In 2 of 4 slides the front-most ground has come apart")
+    assert doubt.endswith("Use final_runout_mass (8.50 m on average).")
+
+
+def test_debris_larger_than_the_mass_front_is_told():
+    (doubt,) = detached_fronts(np.array([0.0, 0.1, 0.25, 3.0]), np.full(4, 8.0), 0.25)
+    assert doubt.endswith("and raise slide.front_area: in 2 there is more debris than that.")

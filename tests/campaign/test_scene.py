@@ -277,8 +277,14 @@ def test_the_time_step_suits_basis_and_stress_update() -> None:
     """The limits are those that tests/stability measures."""
     load_scene("ma2023", ["numerics.courant=0.9"])
     assert "creates energy beyond 0.9; use at most that" in complaint("numerics.courant=0.95")
-    assert "beyond 0.5" in complaint("numerics.stress_update=usl")
+    assert "beyond 0.4" in complaint("numerics.stress_update=usl")
     assert "unstable at every" in complaint("numerics.basis=linear", "numerics.stress_update=usl")
+
+
+def test_a_single_particle_in_a_cell_never_rests() -> None:
+    one = "numerics.particles_per_cell=1"
+    load_scene("ma2023", [one, "numerics.gravity=ramp"])
+    assert "never comes to rest under its own weight" in complaint(one)
 
 
 def test_gaussian_fields_can_have_any_correlation() -> None:

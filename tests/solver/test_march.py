@@ -7,13 +7,14 @@ import numpy as np
 import pytest
 from small_slope import small_model, with_strength
 
+from solver.basis import half_length_in_cells
 from solver.constants import STANDARD_GRAVITY
 from solver.geometry import fill_ground
 from solver.gravity import in_situ_state
 from solver.march import March, Outcome, RestDetector, run
 from solver.operations import GRAVITY_WORK
 from solver.particles import copy_particles
-from solver.timestep import even_steps, stable_step
+from solver.timestep import even_steps, largest_courant, stable_step
 
 MODEL = small_model(residual=2e3)
 TIMES = np.linspace(0.0, 8.0, 81)
@@ -87,7 +88,8 @@ def test_output_times_do_not_steer_the_slide(start):
 
 @pytest.mark.parametrize("stress_update", ["usl", "usf"])
 def test_every_scheme_slides_alike(stress_update, start, slide):
-    other = run(MODEL._replace(scheme=small_model(stress_update=stress_update).scheme), start, TIMES)
+    scheme = small_model(stress_update=stress_update).scheme
+    other = run(MODEL._replace(scheme=scheme, courant=0.4), start, TIMES)
     assert other.max_displacement[-1] == pytest.approx(slide.max_displacement[-1], rel=0.1)
 
 
@@ -206,8 +208,26 @@ def test_a_start_outside_the_grid_breaks_off_without_a_crash():
         assert all(pool.map(fails_from, [-50.0, 1e7, np.nan, np.inf]))
 
 
-def test_a_runaway_time_step_breaks_off(start):
-    assert run(MODEL._replace(courant=4.0), start, TIMES).has_failed
+def test_a_step_beyond_its_limit_is_not_taken(start):
+    history = run(MODEL._replace(courant=0.95), start, TIMES)
+    assert history.outcome is Outcome.DIVERGED
+    assert history.steps == 0
+    assert "The Courant number 0.95 is beyond 0.9" in history.reason
+
+
+def test_a_runaway_time_step_breaks_off(start, monkeypatch):
+    monkeypatch.setattr("solver.march.largest_courant", lambda *scheme: np.inf)
+    history = run(MODEL._replace(courant=4.0), start, TIMES)
+    assert history.has_failed
+    assert history.steps > 0
+
+
+@pytest.mark.parametrize(
+    ("basis", "particles_per_cell", "largest"),
+    [("linear", 4, 0.2), ("gimp", 4, 0.9), ("gimp", 9, 0.9), ("gimp", 16, 0.9), ("bspline", 4, 1.1)],
+)
+def test_every_basis_has_its_limit(basis, particles_per_cell, largest):
+    assert largest_courant(half_length_in_cells(basis, particles_per_cell), "musl") == largest
 
 
 def test_rest_needs_a_slide_and_then_both_signs_for_a_while():

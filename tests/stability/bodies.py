@@ -13,6 +13,7 @@ from test_vibrating_bar import MODULUS as BAR_MODULUS
 from test_vibrating_bar import SPEED as BAR_SPEED
 
 from solver import observables
+from solver.basis import half_length_in_cells
 from solver.elastic import p_wave_speed
 from solver.operations import INTERNAL_WORK
 from solver.particles import allocate_particles
@@ -35,31 +36,32 @@ def energy_gained(body, grid, soil, scheme, dt, steps):
     return gained if taken == steps and np.isfinite(gained) else np.inf
 
 
-def free_block(side, offset=(0.0, 0.0)):
-    """Return a block of four particles a cell, far from the ends of its grid."""
-    x, y = lattice(side, side, 0.5)
-    return allocate_particles(x + 3.0 + offset[0], y + 3.0 + offset[1], 0.25, DENSITY)
+def free_block(side, offset=(0.0, 0.0), particles_per_cell=4):
+    """Return a block far from the ends of its grid."""
+    spacing = particles_per_cell**-0.5
+    x, y = lattice(side, side, spacing)
+    return allocate_particles(x + 3.0 + offset[0], y + 3.0 + offset[1], spacing**2, DENSITY)
 
 
-def flying_block(basis, scheme, courant):
+def flying_block(basis, scheme, courant, particles_per_cell=4):
     """Return the energy a breathing block gains while it flies over four cells, over that of its vibration."""
-    block = free_block(SIDE)
+    block = free_block(SIDE, particles_per_cell=particles_per_cell)
     for place, velocity in ((block.x, block.velocity_x), (block.y, block.velocity_y)):
         velocity[:] = STRAIN * SPEED * np.sin(np.pi * ((place - 3.0) / SIDE - 0.5))
     vibration = observables.kinetic_energy(block)
     for velocity in (block.velocity_x, block.velocity_y):
         velocity += 0.05 * SPEED
-    grid = grid_without_walls(SIDE + 10.0, SIDE + 10.0, 1.0, BASES[basis])
+    grid = grid_without_walls(SIDE + 10.0, SIDE + 10.0, 1.0, half_length_in_cells(basis, particles_per_cell))
     steps = int(np.ceil(80.0 / courant))
     total = observables.kinetic_energy(block)
     return energy_gained(block, grid, SOIL, SCHEMES[scheme], 80.0 / SPEED / steps, steps) * total / vibration
 
 
-def still_block(basis, scheme, courant, offset=(0.0, 0.0), steps=2000):
+def still_block(basis, scheme, courant, offset=(0.0, 0.0), steps=2000, particles_per_cell=4):
     """Return the energy gained by a block that trembles so little that no particle changes its place."""
-    block, rng = free_block(6.0, offset), np.random.default_rng(1)
+    block, rng = free_block(6.0, offset, particles_per_cell), np.random.default_rng(1)
     block.velocity_x[:], block.velocity_y[:] = 1e-9 * SPEED * rng.standard_normal((2, block.x.size))
-    grid = grid_without_walls(12.0, 12.0, 1.0, BASES[basis])
+    grid = grid_without_walls(12.0, 12.0, 1.0, half_length_in_cells(basis, particles_per_cell))
     return energy_gained(block, grid, SOIL, SCHEMES[scheme], courant / SPEED, steps)
 
 

@@ -1,4 +1,4 @@
-"""Failures of a formula: PIC as a viscosity, first-order spin, indefinite correlations, chi-square intervals."""
+"""Failures of a formula: one particle a cell, PIC, first-order spin, indefinite correlations, chi-square intervals."""
 
 import numpy as np
 from bodies import BASES
@@ -9,9 +9,19 @@ from campaign.fields.cholesky import cholesky_factor
 from campaign.fields.correlation import Correlation
 from campaign.fields.samplers import SamplerError
 from campaign.statistics import variance_interval
+from solver.basis import allocate_stencil, evaluate_stencil
 from solver.kinematics import rotate_stress
 from solver.particles import allocate_particles
 from solver.step import advance, allocate_workspace
+
+
+def chessboard_felt(basis, place):
+    """Return the share of nodal values +1, -1, +1, ... in both directions felt ``place`` cells beyond a node."""
+    grid, stencil = grid_without_walls(4.0, 4.0, 1.0, BASES[basis]), allocate_stencil(1)
+    evaluate_stencil(stencil, np.array([1.0 + place]), np.array([1.0 + place]), grid)
+    signs = np.array([1.0, -1.0, 1.0])
+    return abs(signs @ stencil.sx[:, 0] * (signs @ stencil.sy[:, 0]))
+
 
 PLACES = np.arange(4) / 8.0  # of a particle in its cell, for the average over places
 

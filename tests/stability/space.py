@@ -2,11 +2,13 @@
 
 import numpy as np
 from bodies import BASES
-from driver import MUSL, grid_without_walls, lattice, node_indices
+from driver import MUSL, elastic_soil, grid_without_walls, lattice, node_indices
 
+from campaign.detachment import detached_volume
 from solver.basis import allocate_stencil, evaluate_stencil
+from solver.geometry import Surface
 from solver.model import make_soil
-from solver.particles import allocate_particles
+from solver.particles import allocate_particles, copy_particles
 from solver.step import advance, allocate_workspace
 
 STRETCHES = np.arange(1.0, 7.0, 0.01)
@@ -34,6 +36,20 @@ def fracture(basis):
 def expected_fracture(basis):
     """Return ``(h + 2 l_p) / d`` and ``2 (h + l_p) / d`` at ``d = h / 2``: supports that may, and must, miss a node."""
     return 2.0 * (1.0 + 2.0 * BASES[basis]), 4.0 * (1.0 + BASES[basis])
+
+
+def stretch_flagged(basis, length=12.0):
+    """Return the stretch of a strip, drawn out evenly by its own inertia, at which a run that ends is flagged."""
+    x, y = lattice(length, 2.0, 0.5)
+    strip = allocate_particles(x, y + 2.0, 0.25, 1.0)
+    strip.velocity_x[:] = x
+    start, level = copy_particles(strip), Surface(np.array([0.0, 7.0 * length]), np.zeros(2))
+    grid, work = grid_without_walls(7.0 * length, 6.0, 1.0, BASES[basis]), allocate_workspace(x.size)
+    stretch, step = 1.0, 0.01
+    while detached_volume(strip, start, level, grid) == 0.0:
+        advance(strip, grid, work, elastic_soil(1e-9, 0.0), MUSL, 0.0, 0.0, step, 1)
+        stretch += step
+    return stretch
 
 
 HEIGHT, PEAK, RESIDUAL, RATE, REFERENCE = 2.0, 10e3, 2e3, 10.0, 0.25  # m, Pa, Pa, 1, m

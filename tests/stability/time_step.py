@@ -8,14 +8,6 @@ from solver.particles import allocate_particles
 from solver.step import advance, allocate_workspace
 
 EXPLODED = 1e3  # times the energy at the start
-EXPECTED = {  # Courant numbers of the linearised step, computed apart from this solver; MUSL and USF have one spectrum
-    ("linear", "usl"): 0.14,  # one particle 1 % beyond a node: sqrt(2 xi (1 - xi))
-    ("gimp", "usl"): 0.59,
-    ("bspline", "usl"): 0.75,
-    ("linear", "musl"): 1.52,
-    ("gimp", "musl"): 1.60,
-    ("bspline", "musl"): 1.92,
-}
 
 
 def largest_stable(is_stable, low, high, resolution=0.01):

@@ -1,9 +1,11 @@
 """Whole realizations with settings that a scene file would not be allowed."""
 
 import tempfile
+from contextlib import nullcontext
 from itertools import product
-from math import radians
+from math import inf, radians
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 
@@ -42,13 +44,19 @@ UNSTABLE = [
     {"young_modulus": 1e4},
     {"dilation_angle": radians(60.0)},
 ]
+SHORTLY_BEYOND = [  # 7 to 60 % wrong; the energy ledger notices the last two alone
+    *(run for update in ("musl", "usf") for run in steps("gimp", update, 1.8)),
+    *steps("gimp", "musl", 1.85, locking="cell-average"),
+    *(run for update in ("musl", "usf") for run in steps("bspline", update, 2.3)),
+    *steps("linear", "musl", 1.5, 1.6),
+]
 STABLE = [
     *(
         {"locking": locking, "stress_update": update}
         for locking, update in product(("none", "cell-average"), ("musl", "usf"))
     ),
-    *steps("gimp", "usl", 0.5),
-    *steps("gimp", "usl", 0.5, locking="cell-average"),
+    *steps("gimp", "usl", 0.4),
+    *steps("gimp", "usl", 0.4, locking="cell-average"),
     *steps("bspline", "musl", 0.6),
 ]
 
@@ -67,15 +75,26 @@ def changed(scene, settings):
     return scene.model_copy(update=sections)
 
 
-def simulate(settings):
-    """Return realization 0 of the slope with these settings as a record, or None if its ground is refused."""
+def simulate(settings, without_limit=False, observe=lambda march: None):
+    """Return realization 0 of the slope with these settings as a record, or None if its ground is refused.
+
+    Without the limit on the Courant number, the march has only its own progress to judge by.
+    """
     try:
         setup = realization.prepare(changed(load_scene("ma2023", SLOPE), settings))
     except RefusalError:
         return None
-    with np.errstate(all="ignore"), tempfile.TemporaryDirectory() as directory:
+    limit = patch("solver.march.largest_courant", return_value=inf) if without_limit else nullcontext()
+    with limit, np.errstate(all="ignore"), tempfile.TemporaryDirectory() as directory:
         sampler = realization.build_sampler(setup, Path(directory))
-        return realization.simulate(setup, sampler, 0, lambda: False)
+        return realization.simulate(setup, sampler, 0, lambda: False, observe)
+
+
+def soft_ground(courant):
+    """Return record and energy error of ground that its own weight, 380 kPa at the base, presses to a fifth."""
+    errors = []
+    settings = {"young_modulus": 3e5, "gravity": "ramp", "courant": courant}
+    return simulate(settings, observe=lambda march: errors.append(march.energy_error())), errors[-1]
 
 
 def is_stopped(record):

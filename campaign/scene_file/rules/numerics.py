@@ -2,22 +2,9 @@
 
 from campaign.scene_file.rules.measures import Points, relief
 from campaign.scene_file.rules.rule import Rules
+from solver.timestep import LARGEST_COURANT
 
 LEAST_CELLS_OF_HEIGHT = 4
-
-# Below it an elastic body that crosses cells gains less than a tenth of its vibration energy, and one that trembles in
-# place is stable wherever its particles lie: the stability atlas, tests/stability.
-LARGEST_COURANT = {
-    ("gimp", "musl"): 0.9,
-    ("gimp", "usf"): 1.1,
-    ("gimp", "usl"): 0.5,
-    ("bspline", "musl"): 1.1,
-    ("bspline", "usf"): 1.5,
-    ("bspline", "usl"): 0.6,
-    ("linear", "musl"): 0.2,
-    ("linear", "usf"): 0.1,
-    ("linear", "usl"): 0.0,
-}
 
 RULES = Rules()
 
@@ -61,6 +48,16 @@ def _cell_average_of_wide_basis(locking: str, basis: str) -> str | None:
         return (
             'the domain of a "bspline" particle spans two cells, and averaged over both the ground is too weak; '
             'use the basis "gimp"'
+        )
+    return None
+
+
+@RULES.on("numerics.particles_per_cell", "numerics.gravity")
+def _ground_that_rests(particles_per_cell: int, gravity: str) -> str | None:
+    if particles_per_cell == 1 and gravity == "release":
+        return (
+            "a single particle in the middle of a cell feels no forces that alternate from node to node, so the ground "
+            'never comes to rest under its own weight; use 4, or gravity = "ramp"'
         )
     return None
 

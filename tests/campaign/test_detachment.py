@@ -1,0 +1,49 @@
+"""Ground that no node joins to the slide any more."""
+
+import numpy as np
+import pytest
+from small_campaign import small_scene
+
+from campaign import realization
+from campaign.detachment import connected_parts, detached_volume
+from solver.grid import allocate_grid
+
+CELL = 2.0
+
+
+@pytest.fixture(scope="module")
+def model():
+    return realization.model_of(small_scene())
+
+
+@pytest.fixture(scope="module")
+def ground():
+    return realization.prepare(small_scene("numerics.gravity=ramp")).start
+
+
+def pushed(ground, beyond, distance):
+    """Return the ground with what lies above the toe and beyond a place pushed ahead (m), and the volume of that."""
+    moves = (ground.x > beyond) & (ground.y > 4.0)
+    return ground._replace(x=ground.x + distance * moves), ground.volume[moves].sum()
+
+
+@pytest.mark.parametrize(("gap", "is_detached"), [(0.0, False), (1.4, False), (2.6, True), (6.0, True)])
+def test_a_gap_detaches_where_no_node_spans_it(gap, is_detached, model, ground):
+    """Between 1 + 2/4 and 2 (1 + 1/4) cells it depends on the place of the nodes; the plain below does not count."""
+    now, volume = pushed(ground, beyond=30.0, distance=(gap - 0.5) * CELL if gap else 0.0)
+    found = detached_volume(now, ground, model.surface, model.allocate_grid())
+    assert found == (volume if is_detached else 0.0)
+
+
+def test_what_has_stayed_behind_is_not_ahead(model, ground):
+    now, volume = pushed(ground, beyond=10.0, distance=4.0 * CELL)
+    assert volume > 0.5 * ground.volume[ground.y > 4.0].sum()
+    assert detached_volume(now, ground, model.surface, model.allocate_grid()) == 0.0
+
+
+def test_parts_are_what_nodes_join():
+    """Three in a row and one above, then a pair across a corner, then a single one."""
+    x = np.array([1.2, 2.0, 2.8, 2.0, 7.1, 8.3, 12.0])
+    y = np.array([1.5, 1.5, 1.5, 2.7, 3.1, 4.3, 9.0])
+    parts = connected_parts(x, y, allocate_grid(14.0, 12.0, 1.0, 0.25))
+    np.testing.assert_array_equal(parts, [0, 0, 0, 0, 1, 1, 2])
