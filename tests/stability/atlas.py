@@ -138,7 +138,7 @@ def space_entries():
         "slip to half strength shrinks with the cell",
         "by 2; by 1 if the rate grows with the cell",
         f"{local:.2f}; {scaled:.2f} if scaled",
-        "`softening.reference_cell` scales the rate",
+        "`softening.reference_cell` scales the rate; `internal_length` takes the cells out of it",
     )
 
 

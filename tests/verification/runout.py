@@ -12,7 +12,8 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
 import numpy as np
-from runout_ladders import LADDERS, NOISE
+import runout_report
+from runout_ladders import LADDERS, NOISE, key_of
 
 from campaign.realization import build_sampler, prepare, simulate
 from campaign.scene import load_scene
@@ -30,11 +31,6 @@ def compute(scene, overrides):
     return {"status": record.status.name} | {name: float(record.values[name]) for name in KEPT}
 
 
-def key_of(run):
-    """Return the name of a run in the store."""
-    return " ".join([run.scene, *run.overrides])
-
-
 def main():
     """Compute what is missing, coarse cells first, then write the report."""
     results = json.loads(STORE.read_text()) if STORE.exists() else {}
@@ -46,6 +42,7 @@ def main():
             results[running[done]] = done.result()
             STORE.write_text(json.dumps(results, indent=1, sort_keys=True, allow_nan=True) + "\n")
             print(f"{running[done]}: {results[running[done]]['final_runout_mass']:.2f} m", flush=True)
+    runout_report.write(results, STORE.with_suffix(".md"), STORE.with_suffix(".png"))
 
 
 if __name__ == "__main__":

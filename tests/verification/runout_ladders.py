@@ -16,6 +16,11 @@ class Run(NamedTuple):
     cell: float  # m
 
 
+def key_of(run):
+    """Return the name under which the results of a run are kept."""
+    return " ".join([run.scene, *run.overrides])
+
+
 class Ladder(NamedTuple):
     """Runs that differ in one thing."""
 
