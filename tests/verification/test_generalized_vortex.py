@@ -111,13 +111,10 @@ def rows():
     return [
         orders_row(
             f"Generalized vortex (Jaumann), A = {amplitude:g}, {end / PERIOD:g} period",
-            expected,
+            2,
+            1.0,
             [displacement_error(cells, amplitude, end) for cells in LADDER],
             "32 cells a metre",
         )
-        for amplitude, end, expected in (
-            (0.05, PERIOD, "order 1 to 2"),
-            (0.2, PERIOD / 2.0, "order 1 to 2"),
-            (0.2, PERIOD, "order 1 to 2"),
-        )
+        for amplitude, end in ((0.05, PERIOD), (0.2, PERIOD / 2.0), (0.2, PERIOD))
     ]
