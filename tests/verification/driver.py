@@ -18,7 +18,7 @@ MUSL = SCHEMES["musl"]
 
 
 class Row(NamedTuple):
-    """One line of the verification table."""
+    """One line of the verification table: four texts, and whether the target is met."""
 
     phenomenon: str
     expected: str
@@ -40,7 +40,7 @@ def observed_orders(errors):
 def orders_row(phenomenon, order, accepted, errors, finest):
     """Return the line of a ladder of relative errors whose last was found at ``finest``.
 
-    ``order`` is what theory gives, ``accepted`` the least that was set beforehand.
+    ``order`` is what theory gives, ``accepted`` the least that counts as met.
     """
     orders = observed_orders(errors)
     return Row(

@@ -101,7 +101,7 @@ def rows():
     return [
         orders_row(f"Self-weight column, {case}", 1, 0.8, errors, "32 cells")
         for case, errors in (
-            (f"1 % strain: stress, h / (4 H) = {0.25 / LADDER[-1]:.2%}", [e[0] for e in small]),
+            (f"1 % strain: stress (h / 4 H = {0.25 / LADDER[-1]:.2%})", [e[0] for e in small]),
             ("5 % strain: stress", [e[0] for e in moderate]),
             ("30 % strain: stress", [e[0] for e in large]),
             ("30 % strain: place", [e[2] for e in large]),

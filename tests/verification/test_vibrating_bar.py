@@ -104,7 +104,7 @@ def rows():
             table.append(
                 Row(
                     f"Vibrating bar, amplitude {amplitude} cells, {name.upper()}",
-                    f"period 4 L / c within 0.2 %, energy within 0.5 %, place within {accepted:.0%}",
+                    f"period 4 L / c within 0.2 %, energy within 0.5 %, place within {accepted:.1%}",
                     f"period {period_error:+.2%}, energy {energy_error:+.2%}",
                     f"{displacement_error:.2%} of the amplitude",
                     abs(period_error) < 0.002 and abs(energy_error) < 0.005 and displacement_error < accepted,
