@@ -7,8 +7,24 @@ import numpy as np
 from solver._jit import kernel
 from solver.hooke import elastic_increment
 from solver.kinematics import rotate_stress
+from solver.model import make_soil
 from solver.mohr_coulomb import mohr_coulomb, update_stress
 from solver.softening import exp_decay, remaining_share, sine
+
+COHESION = 20e3  # Pa
+
+
+def soil_of(psi, rate=0.0, is_linear=False):
+    """Return a soil of the dilation angle ``psi`` (degrees) that softens to 10 kPa and 5 degrees."""
+    return make_soil(70e6, 0.35, np.radians(psi), 10e3, np.radians(5.0), rate, is_linear)
+
+
+def random_trials(n, seed, cohesion=COHESION):
+    """Return stresses (4, n) in Pa of many magnitudes, over all orders of the principal stresses."""
+    rng = np.random.default_rng(seed)
+    scale = cohesion * 10.0 ** rng.uniform(-1.0, 1.5, n)
+    isotropic = 2.0 * rng.normal(size=n) * np.array([1.0, 1.0, 1.0, 0.0])[:, None]
+    return scale * (isotropic + 3.0 * rng.uniform(0.0, 1.0, n) * rng.normal(size=(4, n)))
 
 
 @kernel

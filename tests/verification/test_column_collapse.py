@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from driver import Row
 
 from campaign.detachment import detached_volume
 from campaign.realization import prepare, strengthen
@@ -157,3 +158,23 @@ def test_scaling_of_rod_columns(aspect_ratio):
     width = 0.1 / aspect_ratio
     assert rods.front / width == pytest.approx(4.30 * aspect_ratio**0.72, rel=0.15)
     assert 0.1 / rods.height[0] == pytest.approx(1.42 * aspect_ratio ** (2 / 3), rel=0.1)
+
+
+def rows():
+    bars = collapse()
+    surface, failure_line = surface_error(bars), float(np.sqrt(np.mean(failure_line_error(bars) ** 2)))
+    front, crest = bars.front / 0.442 - 1.0, bars.height[0] / 0.1 - 1.0
+    return [
+        Row(
+            "Column of aluminium bars (Bui et al. 2008), surface",
+            "5 mm rms",
+            "",
+            f"{surface * 1e3:.1f} mm",
+            surface < 5e-3,
+        ),
+        Row("The same, failure line", "5 mm rms", "", f"{failure_line * 1e3:.1f} mm", failure_line < 5e-3),
+        Row(
+            "The same, crest", "100 mm within 1 %", f"{bars.height[0] * 1e3:.1f} mm", f"{crest:+.1%}", abs(crest) < 0.01
+        ),
+        Row("The same, front", "442 mm within 10 %", f"{bars.front * 1e3:.0f} mm", f"{front:+.0%}", abs(front) < 0.10),
+    ]

@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 import pytest
+from driver import Row
 from quasi_static import bearing_pressure, factor_of_safety, quasi_static_model
 
 from solver.geometry import Surface, slope_surface
@@ -84,3 +85,34 @@ def test_vertical_cut():
     coarse, fine = (vertical_cut(cells, "cell-average", 0.98) for cells in (10, 20))
     assert coarse == pytest.approx(1.0, abs=0.065)
     assert fine == pytest.approx(1.0, abs=0.04)
+
+
+def load_row(name, locking, exact, found):
+    """Return the line of a load that was found to be ``found`` times the exact one; 5 % are accepted."""
+    method = {"cell-average": "", "none": ", plain uGIMP"}[locking]
+    return Row(
+        f"{name}{method}",
+        f"{exact:.3f} within 5 %",
+        f"{exact * found:.3f}",
+        f"{found - 1.0:+.1%}",
+        abs(found - 1.0) < 0.05,
+    )
+
+
+def rows():
+    table = []
+    for locking in ("cell-average", "none"):
+        for cells in (5, 10):
+            load = bearing_pressure(cells, locking)[-1]
+            name = f"Strip load on Tresca ground over c, {2 * cells} cells wide"
+            table.append(load_row(name, locking, PRANDTL, load / PRANDTL))
+        for name, slope, cells, exact, first in (
+            ("Vertical cut, stability number, 10 cells", vertical_cut, 10, 3.776, 0.98),
+            ("Vertical cut, stability number, 20 cells", vertical_cut, 20, 3.776, 0.98),
+            ("Slope of Dawson et al., factor of safety", dawson, 10, 1.0, 0.95),
+            ("Slope of Griffiths and Lane, factor of safety", griffiths_lane, 10, 1.38, 1.30),
+            ("Slope of `ma2023`, factor of safety", ma2023, 15, 0.734, 0.69),
+        ):
+            factor = slope(cells, locking, first)
+            table.append(load_row(name, locking, exact, factor if slope is vertical_cut else factor / exact))
+    return table

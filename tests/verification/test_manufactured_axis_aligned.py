@@ -4,12 +4,25 @@
     sigma_xx = (lambda + 2 mu) ln F_x + lambda ln F_y,  F_x = 1 + pi a cos(pi X),  F_y = 1 - pi a cos(pi Y)
     b_x = d2u_x/dt2 - (lambda + 2 mu) F_y dF_x/dX / (rho_0 F_x)
 
-The order is two while the domains of the particles stay contiguous, and falls as they overlap and part.
+The order is two while the domains of the particles stay contiguous, and falls as they overlap and part: a stretch
+``F`` leaves the share ``2 sinc(2 / F) sinc(1 / F)`` of the stress unbalanced on any grid (``test_self_weight_column``),
+0.2 % at ``A = 0.01`` and 4 % at 0.05.
 """
 
 import numpy as np
 import pytest
-from driver import LINEAR, MUSL, UGIMP, elastic_soil, grid_with_rollers, lattice, march, observed_orders, orders_row
+from driver import (
+    LINEAR,
+    MUSL,
+    UGIMP,
+    divergence_row,
+    elastic_soil,
+    grid_with_rollers,
+    lattice,
+    march,
+    observed_orders,
+    orders_row,
+)
 
 from solver.elastic import p_wave_speed
 from solver.particles import allocate_particles
@@ -81,17 +94,16 @@ def test_linear_basis_diverges():
 
 
 def rows():
-    return [
+    ladder = (*LADDER, 64)
+    table = [
         orders_row(
-            f"Axis-aligned manufactured solution, A = {amplitude:g}{', linear basis' if basis == LINEAR else ''}",
-            expected,
-            [displacement_and_stress_errors(cells, amplitude, basis)[0] for cells in (*LADDER, 64)],
+            f"Axis-aligned manufactured solution, A = {amplitude:g}",
+            2,
+            1.6,
+            [displacement_and_stress_errors(cells, amplitude)[0] for cells in ladder],
             "64 cells",
         )
-        for amplitude, basis, expected in (
-            (1e-4, UGIMP, "order 2"),
-            (0.01, UGIMP, "order 2"),
-            (0.05, UGIMP, "order 2, then a floor"),
-            (0.05, LINEAR, "divergence"),
-        )
+        for amplitude in (1e-4, 0.01, 0.05)
     ]
+    linear = [displacement_and_stress_errors(cells, 0.05, LINEAR)[0] for cells in ladder]
+    return [*table, divergence_row("Axis-aligned manufactured solution, A = 0.05, linear basis", linear, "64 cells")]
