@@ -16,6 +16,8 @@ LEGEND = [
     ("cell averages, rate of softening per cell", BLACK, "s--"),
 ]
 
+LARGEST_LAST_CHANGE = 0.05  # of the run-out, when the cell is halved for the last time: beyond it no limit is given
+
 INTRODUCTION = """\
 # How far from converged the run-out of `ma2023` is
 
@@ -42,7 +44,9 @@ NOISE_HEAD = """
 EXPLANATION = """
 The order is that of the last three cells, each half the one before, where they approach a limit from one side; the
 limit is extrapolated with that order, but with no less than 1, which is what a band or a front between two nodes
-allows. Where they do not, the limit is the mean of the last two. "-": the ladder has none, or the run did not end.
+allows. Where they do not, the limit is the mean of the last two. "-": there is none, or the last halving of the cell
+still changes the run-out by more than 5 %. Two errors of coarse cells have opposite signs here: without softening they
+hold the slide back, with softening they weaken ground that yields as a whole too much.
 
 ![Run-out against the cell size](runout.png)
 """
@@ -67,7 +71,7 @@ def cell_row(ladder, results, columns):
     """Return the line of a ladder of cell sizes."""
     cells, values = runouts(ladder, results)
     shown = [f"{values[cells == column][0]:.2f}" if column in cells else "" for column in columns]
-    has_limit = np.ptp(values[-3:]) < 0.1 * values[-1]
+    has_limit = abs(values[-1] - values[-2]) < LARGEST_LAST_CHANGE * values[-1]
     order, limit = extrapolate(values[-3:]) if has_limit else (math.nan, math.nan)
     at_half = values[cells == 0.5][0]
     end = [

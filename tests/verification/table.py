@@ -12,6 +12,8 @@ import test_mohr_coulomb_paths
 import test_return_regions
 import test_rotation
 import test_self_weight_column
+import test_softening_ring
+import test_softening_strip
 import test_sudden_gravity
 import test_two_discs
 import test_vibrating_bar
@@ -29,7 +31,13 @@ LADDER = {
         test_generalized_vortex,
         test_two_discs,
     ),
-    "Ground that yields": (test_incline, test_limit_loads, test_column_collapse),
+    "Ground that yields": (
+        test_incline,
+        test_limit_loads,
+        test_softening_ring,
+        test_softening_strip,
+        test_column_collapse,
+    ),
     "Random fields": (test_field_moments,),
 }
 

@@ -76,17 +76,20 @@ def rows():
     """Return the lines of the verification table."""
     errors = [largest_error(cell) for cell in CELLS]
     thickness = [local_thickness(cell) / cell for cell in CELLS[:2]]
+    deviation = max(abs(cells / BAND_THICKNESS - 1.0) for cells in thickness)
     return [
         Row(
             f"Softening ring, internal length {LENGTH} m, cells 0.5, 0.25, 0.125 m: stress",
             "within 5 % of the closed form",
             ", ".join(f"{error:.1%}" for error in errors),
             f"{max(errors):.1%}",
+            max(errors) < 0.05,
         ),
         Row(
             "Softening ring, local, cells 0.5, 0.25 m: thickness of the band",
             f"{BAND_THICKNESS} cells, as allowed for",
             ", ".join(f"{cells:.2f}" for cells in thickness),
-            f"{max(abs(cells / BAND_THICKNESS - 1.0) for cells in thickness):.0%}",
+            f"{deviation:.1%}",
+            deviation < 0.02,
         ),
     ]

@@ -12,6 +12,7 @@ softens too soon on coarse cells.
 """
 
 import numpy as np
+from driver import Row
 from shear_strip import COARSE_CELL, HEIGHT, PEAK, RESIDUAL, WEAK_SHARE, shear_force, shear_modulus_of_strip
 
 CELLS = COARSE_CELL * np.array([1.0, 0.5, 0.25])
@@ -45,12 +46,17 @@ def spread(stress):
     return float(np.max(np.ptp(stress, axis=0) / stress[-1]))
 
 
-def test_non_local_softening_converges_to_the_closed_form():
-    """Within 5 % on the coarsest mesh and 2.5 % on the others (inertia of the drive included)."""
+def errors():
+    """Return the largest deviation from the closed form on each mesh, inertia of the drive included."""
     displacement, stress = curves(CELLS, [RATE] * 3, LENGTH)
-    error = np.max(np.abs(stress / closed_form(displacement) - 1.0), axis=1)
-    assert error[0] < 0.05
-    assert np.all(error[1:] < 0.025)
+    return np.max(np.abs(stress / closed_form(displacement) - 1.0), axis=1)
+
+
+def test_non_local_softening_converges_to_the_closed_form():
+    """Within 5 % on the coarsest mesh, and twice as near on the others."""
+    coarsest, *others = errors()
+    assert coarsest < 0.05
+    assert max(others) < 0.025
 
 
 def test_local_softening_gives_a_curve_for_each_mesh():
@@ -61,3 +67,26 @@ def test_local_softening_gives_a_curve_for_each_mesh():
 def test_local_softening_scaled_with_the_cell_gives_one_curve_in_a_band():
     """The band is one cell, so the rate in proportion to the cell keeps slip to strength: what ``rate_at`` is for."""
     assert spread(curves(CELLS[:2], [LOCAL_RATE, 0.5 * LOCAL_RATE], 0.0)[1]) < 0.05
+
+
+def rows():
+    """Return the lines of the verification table."""
+    non_local = errors()
+    scaled = spread(curves(CELLS[:2], [LOCAL_RATE, 0.5 * LOCAL_RATE], 0.0)[1])
+    lengths = ", ".join(f"{LENGTH / cell:g}" for cell in CELLS)
+    return [
+        Row(
+            f"Softening strip along the grid, {lengths} cells in the internal length: stress",
+            "within 5 % of the closed form",
+            ", ".join(f"{error:.1%}" for error in non_local),
+            f"{max(non_local):.1%}",
+            max(non_local) < 0.05,
+        ),
+        Row(
+            "Softening strip along the grid, rate in proportion to the cell, h and h / 2: stress",
+            "one curve within 5 %",
+            f"{scaled:.1%} apart",
+            f"{scaled:.1%}",
+            scaled < 0.05,
+        ),
+    ]
