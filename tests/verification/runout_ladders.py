@@ -53,7 +53,7 @@ LONG = "geometry.slope.plain=40 m"  # the printed scene's 20 m let far slides re
 UNTIL_10_S = "slide.failed=14 m"  # nothing moves so far, so the end criterion is never armed
 
 BY_CELL = [
-    cells("`ma2023`", sizes=CELLS),
+    cells("`ma2023`", sizes=(*CELLS, 0.125)),
     cells("`ma2023`, 9 particles a cell", "numerics.particles_per_cell=9"),
     cells("`ma2023` without softening", "soil.softening.law=none"),
     cells("`ma2023-printed`: plain uGIMP, local softening", LONG, scene=PRINTED),
