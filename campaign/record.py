@@ -53,7 +53,7 @@ QUANTITIES: dict[str, Quantity] = {
     "sliding_volume": Quantity((), "m3/m", "volume displaced farther than slide.displaced, per metre run"),
     "detached_volume": Quantity((), "m3/m", "volume that has come apart and lies ahead of the slide, per metre run"),
     "settle_time": Quantity((), "s", "time from release to rest"),
-    "energy_error": Quantity((), "1", "energy imbalance over released potential energy"),
+    "energy_error": Quantity((), "1", "energy imbalance over the work of gravity"),
     "wall_time": Quantity((), "s", "wall-clock time of the simulation"),
     "steps": Quantity((), "1", "number of time steps", "i8"),
     "deposit_surface": Quantity(("x",), "m", "final elevation of the ground surface"),
