@@ -6,7 +6,7 @@ import numpy as np
 
 from solver._jit import kernel
 from solver.basis import evaluate_stencil
-from solver.grid import allocate_grid
+from solver.grid import NO_SMOOTHING, allocate_grid
 from solver.model import make_soil
 from solver.operations import solve_momentum
 from solver.step import BLOCK, STRESS_UPDATES, Scheme, accelerate, allocate_workspace, deform, spread_all
@@ -71,9 +71,9 @@ def node_indices(grid):
     return i + offset, j + offset
 
 
-def grid_without_walls(width, height, cell_size, half_length=UGIMP):
+def grid_without_walls(width, height, cell_size, half_length=UGIMP, smoothing=NO_SMOOTHING):
     """Return a grid whose nodes are all free."""
-    grid = allocate_grid(width, height, cell_size, half_length)
+    grid = allocate_grid(width, height, cell_size, half_length, smoothing)
     grid.free_x[:] = grid.free_y[:] = 1.0
     return grid
 

@@ -10,10 +10,11 @@ import numpy as np
 
 from solver import observables
 from solver._jit import kernel
+from solver.constants import STANDARD_GRAVITY
 from solver.geometry import Surface, fill_ground
 from solver.gravity import LOCAL_DAMPING, in_situ_state, unbalanced_share
 from solver.grid import PADDING, SMALLEST_MASS
-from solver.model import STANDARD_GRAVITY, Model, make_soil
+from solver.model import Model, make_soil
 from solver.operations import solve_momentum
 from solver.particles import copy_particles
 from solver.step import LOCKING, STRESS_UPDATES, Scheme, accelerate, advance, allocate_workspace, begin, deform

@@ -11,7 +11,6 @@ import tempfile
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
-import numpy as np
 import runout_report
 from runout_ladders import LADDERS, NOISE, key_of
 
@@ -40,11 +39,10 @@ def main():
         running = {pool.submit(compute, wanted[key].scene, wanted[key].overrides): key for key in missing}
         for done in as_completed(running):
             results[running[done]] = done.result()
-            STORE.write_text(json.dumps(results, indent=1, sort_keys=True, allow_nan=True) + "\n")
+            STORE.write_text(json.dumps(results, indent=1, sort_keys=True) + "\n")
             print(f"{running[done]}: {results[running[done]]['final_runout_mass']:.2f} m", flush=True)
     runout_report.write(results, STORE.with_suffix(".md"), STORE.with_suffix(".png"))
 
 
 if __name__ == "__main__":
-    np.seterr(all="raise")
     main()

@@ -7,22 +7,29 @@ a ring around ``RADIUS`` that is 5 % weaker and slips. The band crosses the grid
 import math
 
 import numpy as np
+from driver import lattice
+from shear_band import (
+    DENSITY,
+    DRIVE,
+    MUSL,
+    PEAK,
+    POISSON_RATIO,
+    WEAK_SHARE,
+    WEAK_WIDTH,
+    YOUNG_MODULUS,
+    in_samples,
+    smoothing_grid,
+    soil_on_cells,
+)
 
 from solver._jit import kernel
-from solver.elastic import p_wave_speed, shear_modulus
-from solver.grid import allocate_grid
-from solver.internal_length import coarse_rate_factor, smoothing_weights
-from solver.model import make_soil
+from solver.elastic import shear_modulus
 from solver.operations import INTERNAL_WORK, solve_momentum
 from solver.particles import allocate_particles
-from solver.step import LOCKING, STRESS_UPDATES, Scheme, accelerate, allocate_workspace, begin, deform
+from solver.step import accelerate, allocate_workspace, begin, deform
 
 RADIUS, HELD, DRIVEN, RIM, SIZE = 6.0, 4.0, 8.0, 2.0, 22.0  # m: of the band, the rigid parts, the rims, the grid
-PEAK, WEAK_SHARE, WEAK_WIDTH = 20e3, 0.95, 1.0  # Pa at RADIUS, 1, m; softening goes to nothing
-YOUNG_MODULUS, POISSON_RATIO, DENSITY = 2e6, 0.35, 2000.0
-DRIVE, SLIP, SAMPLES = 0.05, 0.8, 40  # m/s and m at RADIUS, looks on the way
-COURANT, HALF_LENGTH = 0.6, 0.25
-MUSL = Scheme(STRESS_UPDATES["musl"], 1.0, 0.7, LOCKING["cell-average"])
+SLIP, SAMPLES = 0.8, 40  # m at RADIUS, where the drive is DRIVE, looks on the way
 
 
 @kernel
@@ -52,7 +59,7 @@ def compliance():
 def ring(cell):
     """Return the particles of the ring, turning as in even elastic shear."""
     spacing = 0.5 * cell
-    x, y = np.meshgrid(*[np.arange(0.5 * spacing, SIZE, spacing)] * 2)
+    x, y = lattice(SIZE, SIZE, spacing)
     radius = np.hypot(x - 0.5 * SIZE, y - 0.5 * SIZE)
     is_ring = (radius > HELD - RIM) & (radius < DRIVEN + RIM)
     particles, radius = allocate_particles(x[is_ring], y[is_ring], spacing**2, DENSITY), radius[is_ring]
@@ -77,15 +84,12 @@ def walls(grid):
 
 def shear_force(cell, rate, internal_length):
     """Return displacement in m and mean shear stress in Pa at ``RADIUS``, from the work of the stresses (SAMPLES,)."""
-    rate_on_cells = rate * coarse_rate_factor(internal_length, cell, HALF_LENGTH)
-    soil = make_soil(YOUNG_MODULUS, POISSON_RATIO, 0.0, 0.0, 0.0, rate_on_cells, False, internal_length)
-    grid = allocate_grid(SIZE, SIZE, cell, HALF_LENGTH, smoothing_weights(internal_length, cell, HALF_LENGTH))
-    grid.free_x[:] = grid.free_y[:] = 1.0
+    soil = soil_on_cells(cell, rate, internal_length, residual=0.0)
+    grid = smoothing_grid(SIZE, SIZE, cell, internal_length)
     particles = ring(cell)
     work = allocate_workspace(particles.x.size)
-    wave_speed = p_wave_speed(soil.bulk_modulus, soil.shear_modulus, DENSITY)
-    steps = math.ceil(SLIP / DRIVE / (COURANT * cell / wave_speed) / SAMPLES)
-    dt = SLIP / DRIVE / SAMPLES / steps
-    works = [turn(particles, grid, work, soil, *walls(grid), dt, steps) for _ in range(SAMPLES)]
-    displacement = SLIP * (np.arange(SAMPLES) + 0.5) / SAMPLES
-    return displacement, np.array(works) / (SLIP / SAMPLES * 2.0 * math.pi * RADIUS)
+    nodes = walls(grid)
+    displacement, works = in_samples(
+        lambda dt, steps: turn(particles, grid, work, soil, *nodes, dt, steps), soil, cell, SLIP, SAMPLES
+    )
+    return displacement, works / (SLIP / SAMPLES * 2.0 * math.pi * RADIUS)

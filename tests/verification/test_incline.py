@@ -31,9 +31,10 @@ import numpy as np
 import pytest
 from driver import MUSL, UGIMP, Row, grid_without_walls, lattice, march, node_indices
 
+from solver.constants import STANDARD_GRAVITY
 from solver.elastic import p_wave_speed
 from solver.grid import SMALLEST_MASS, allocate_grid
-from solver.model import STANDARD_GRAVITY, make_soil
+from solver.model import make_soil
 from solver.operations import solve_momentum
 from solver.particles import allocate_particles
 from solver.step import accelerate, allocate_workspace, deform, spread_all

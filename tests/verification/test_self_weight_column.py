@@ -23,8 +23,8 @@ import numpy as np
 import pytest
 from driver import LINEAR, UGIMP, Row, divergence_row, elastic_soil, lattice, observed_orders, orders_row
 
+from solver.constants import STANDARD_GRAVITY
 from solver.grid import allocate_grid
-from solver.model import STANDARD_GRAVITY
 from solver.particles import allocate_particles
 from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace
 

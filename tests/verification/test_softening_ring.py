@@ -1,33 +1,19 @@
 """Softening in a band across the grid: stress against displacement of a sheared ring on ``h``, ``h / 2``, ``h / 4``.
 
-With the elastic ring in series (compliance ``k``) the stress ``tau`` at displacement ``U`` solves
-
-    tau = 0.95 c exp(-eta u / (sqrt(3) l)),   u = U - k tau
-
-where ``l`` is the internal length, or, with local softening, the thickness of a band.
+The thickness of the closed form (``shear_band``) is the internal length, or, with local softening, that of a band.
 """
 
 import numpy as np
 import pytest
 from driver import Row
 from scipy.optimize import minimize_scalar
-from shear_ring import PEAK, WEAK_SHARE, compliance, shear_force
+from shear_band import PEAK, closed_form
+from shear_ring import compliance, shear_force
 
 from solver.internal_length import BAND_THICKNESS
 
 RATE, LENGTH = 1.875, 1.25
 CELLS = (0.5, 0.25, 0.125)
-
-
-def closed_form(displacement, rate, thickness):
-    """Return the stress at each displacement by bisection on the slip."""
-    low, high = np.zeros_like(displacement), displacement.copy()
-    for _ in range(60):
-        slip = 0.5 * (low + high)
-        stress = WEAK_SHARE * PEAK * np.exp(-rate * slip / (np.sqrt(3.0) * thickness))
-        is_too_little = displacement - slip > compliance() * stress
-        low, high = np.where(is_too_little, slip, low), np.where(is_too_little, high, slip)
-    return stress
 
 
 def after_yield(cell, rate, internal_length):
@@ -40,14 +26,14 @@ def after_yield(cell, rate, internal_length):
 def largest_error(cell):
     """Return the largest deviation from the closed form with the internal length, relative to it."""
     displacement, stress = after_yield(cell, RATE, LENGTH)
-    return float(np.max(np.abs(stress / closed_form(displacement, RATE, LENGTH) - 1.0)))
+    return float(np.max(np.abs(stress / closed_form(displacement, compliance(), RATE, LENGTH, 0.0) - 1.0)))
 
 
 def local_thickness(cell):
     """Return the thickness in m of a band that softens locally, fitted to the stress."""
     displacement, stress = after_yield(cell, RATE, 0.0)
     misfit = minimize_scalar(
-        lambda thickness: float(np.sum((closed_form(displacement, RATE, thickness) - stress) ** 2)),
+        lambda thickness: float(np.sum((closed_form(displacement, compliance(), RATE, thickness, 0.0) - stress) ** 2)),
         bounds=(0.1 * cell, 10.0 * cell),
         method="bounded",
     )

@@ -1,19 +1,14 @@
 """Softening in a band along the grid: force against displacement of a sheared strip.
 
-The middle of the strip is 5 % weaker, so all slip ends up there, in one row of cells. With non-local softening a band
-of any thickness softens with its slip ``u`` as ``kappa = u / (sqrt(3) l)`` (``solver.nonlocal_softening``), and with
-the elastic strip in series the stress ``tau`` at displacement ``U`` solves
-
-    tau = c_r + (c_p - c_r) exp(-eta kappa),   u = U - tau H / G
-
-in the quasi-static limit; tensor shear ``gamma / 2`` of pure plastic shear is ``eps_p = gamma / sqrt(3)``. A band of
-one row is half as thick as bands across the grid (``test_softening_ring``), which the average allows for, so it
-softens too soon on coarse cells.
+All slip ends up in one row of cells in the middle of the strip; ``shear_band`` has the closed form. A band of one row
+is half as thick as bands across the grid (``test_softening_ring``), which the average allows for, so it softens too
+soon on coarse cells.
 """
 
 import numpy as np
 from driver import Row
-from shear_strip import COARSE_CELL, HEIGHT, PEAK, RESIDUAL, WEAK_SHARE, shear_force, shear_modulus_of_strip
+from shear_band import PEAK, closed_form
+from shear_strip import COARSE_CELL, RESIDUAL, compliance, shear_force
 
 CELLS = COARSE_CELL * np.array([1.0, 0.5, 0.25])
 RATE, LENGTH = 6.0, 2.0  # 4, 8 and 16 cells in the length
@@ -24,21 +19,8 @@ def curves(cells, rates, internal_length):
     """Return displacement (m) and the mean shear stress (Pa) on each mesh, from yield on."""
     found = [shear_force(cell, rate, internal_length) for cell, rate in zip(cells, rates, strict=True)]
     displacement = found[0][0]
-    at_yield = PEAK * HEIGHT / shear_modulus_of_strip()
-    yielding = displacement > at_yield
+    yielding = displacement > PEAK * compliance()
     return displacement[yielding], np.array([stress[yielding] for _, stress in found])
-
-
-def closed_form(displacement):
-    """Return the stress at each displacement by bisection on the slip."""
-    peak = WEAK_SHARE * PEAK
-    low, high = np.zeros_like(displacement), displacement.copy()
-    for _ in range(60):
-        slip = 0.5 * (low + high)
-        strength = RESIDUAL + (peak - RESIDUAL) * np.exp(-RATE * slip / (np.sqrt(3.0) * LENGTH))
-        too_little = shear_modulus_of_strip() * (displacement - slip) / HEIGHT > strength
-        low, high = np.where(too_little, slip, low), np.where(too_little, high, slip)
-    return strength
 
 
 def spread(stress):
@@ -49,7 +31,7 @@ def spread(stress):
 def errors():
     """Return the largest deviation from the closed form on each mesh, inertia of the drive included."""
     displacement, stress = curves(CELLS, [RATE] * 3, LENGTH)
-    return np.max(np.abs(stress / closed_form(displacement) - 1.0), axis=1)
+    return np.max(np.abs(stress / closed_form(displacement, compliance(), RATE, LENGTH, RESIDUAL) - 1.0), axis=1)
 
 
 def test_non_local_softening_converges_to_the_closed_form():

@@ -12,8 +12,8 @@ which is why gravity is brought on with damping or slowly before strength counts
 import numpy as np
 from driver import MUSL, Row, elastic_soil, lattice, observed_orders, orders_row
 
+from solver.constants import STANDARD_GRAVITY
 from solver.grid import allocate_grid
-from solver.model import STANDARD_GRAVITY
 from solver.particles import allocate_particles
 from solver.step import advance, allocate_workspace
 

@@ -10,9 +10,9 @@ import pytest
 from driver import SCHEMES, Row, elastic_soil, lattice, node_indices
 
 from solver.basis import allocate_stencil, evaluate_stencil
+from solver.constants import STANDARD_GRAVITY
 from solver.elastic import p_wave_speed
 from solver.grid import PADDING, allocate_grid
-from solver.model import STANDARD_GRAVITY
 from solver.particles import allocate_particles
 from solver.step import advance, allocate_workspace
 
