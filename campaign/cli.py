@@ -11,7 +11,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from campaign.exit_codes import ExitCode, RefusalError
+from campaign.errors import RefusalError
+from campaign.exit_codes import ExitCode
 
 if TYPE_CHECKING:
     from campaign.scene import Scene
@@ -44,9 +45,9 @@ def _pin_threads() -> None:
 
 
 def _run(options: argparse.Namespace) -> ExitCode:
-    from campaign import realization
-    from campaign.runner import run
+    from campaign.running.runner import run
     from campaign.scene import load_scene
+    from campaign.simulation import realization
 
     def read_scene() -> "Scene":
         return load_scene(options.scene, _overrides(options))
@@ -55,13 +56,13 @@ def _run(options: argparse.Namespace) -> ExitCode:
 
 
 def _draw(directory: Path) -> Path:
-    from campaign.report import write_report
+    from campaign.report.page import write_report
 
     return write_report(directory)
 
 
 def _validate(options: argparse.Namespace) -> ExitCode:
-    from campaign.cost import cost
+    from campaign.scene.cost import cost
 
     scene = _scene(options)
     print(f"{scene.title}: a valid scene; {cost(scene)}.")
@@ -69,7 +70,7 @@ def _validate(options: argparse.Namespace) -> ExitCode:
 
 
 def _status(options: argparse.Namespace) -> ExitCode:
-    from campaign.status import status, watch
+    from campaign.commands.status import status, watch
 
     if options.watch:
         watch(options.directory)
@@ -79,15 +80,15 @@ def _status(options: argparse.Namespace) -> ExitCode:
 
 
 def _report(options: argparse.Namespace) -> ExitCode:
-    from campaign.report import write_report
+    from campaign.report.page import write_report
 
     print(write_report(options.directory))
     return ExitCode.DONE
 
 
 def _replay(options: argparse.Namespace) -> ExitCode:
-    from campaign import manifest
-    from campaign.replay import replay
+    from campaign.commands.replay import replay
+    from campaign.storage import manifest
 
     manifest.read(options.directory)
     print(replay(options.directory, options.realization))
@@ -95,7 +96,7 @@ def _replay(options: argparse.Namespace) -> ExitCode:
 
 
 def _tradeoff(options: argparse.Namespace) -> ExitCode:
-    from campaign.tradeoff_report import write_tradeoff
+    from campaign.tradeoff.table import write_tradeoff
 
     scene = _scene(options)
     out = options.out or Path(f"tradeoff-{scene.name}")
@@ -112,7 +113,8 @@ def _scenes(_options: argparse.Namespace) -> ExitCode:
 
 
 def _scene(options: argparse.Namespace) -> "Scene":
-    from campaign.scene import SceneError, load_scene
+    from campaign.errors import SceneError
+    from campaign.scene import load_scene
 
     try:
         return load_scene(options.scene, _overrides(options))

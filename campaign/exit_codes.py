@@ -11,7 +11,3 @@ class ExitCode(IntEnum):
     TOO_MANY_FAILED = 3
     INTERNAL_ERROR = 70
     RESUMABLE = 75
-
-
-class RefusalError(Exception):
-    """The command cannot be carried out as asked; the message says why and what to do."""

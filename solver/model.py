@@ -5,12 +5,12 @@ from typing import NamedTuple
 
 from solver.constants import STANDARD_GRAVITY
 from solver.elastic import bulk_modulus, p_wave_speed, shear_modulus
-from solver.geometry import Surface
 from solver.grid import Grid, allocate_grid
 from solver.internal_length import smoothing_weights
 from solver.mohr_coulomb import Soil
 from solver.slide import PAPER, Slide
 from solver.step import Scheme
+from solver.surface import Surface
 
 HEADROOM_IN_CELLS = 2  # space above the highest ground
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from solver.geometry import Surface
 from solver.grid import SMALLEST_MASS, Grid
 from solver.particles import Particles
 from solver.slide import Slide
+from solver.surface import Surface
 
 
 def displacement(particles: Particles, start: Particles) -> np.ndarray:

@@ -13,9 +13,10 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy import linalg
 
+from campaign.errors import SamplerError
 from campaign.fields.correlation import Array, Correlation
-from campaign.fields.samplers import SamplerError, refuse_large
-from campaign.files import publish, temporary_name, write_atomically
+from campaign.fields.samplers import refuse_large
+from campaign.storage.files import publish, temporary_name, write_atomically
 
 FACTOR_FILE = "field_factor.npy"
 

@@ -13,6 +13,7 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy import fft, linalg
 
+from campaign.errors import SamplerError
 from campaign.fields.correlation import Array, Correlation
 
 MEMORY_LIMIT = 4 * 10**9
@@ -20,10 +21,6 @@ MEMORY_LIMIT = 4 * 10**9
 
 LEAST_EIGENVALUE = -1e-12
 """Most negative eigenvalue of a circulant matrix, relative to the largest, that still counts as rounding."""
-
-
-class SamplerError(ValueError):
-    """A sampler cannot draw this field; the message says why and what to use instead."""
 
 
 class Sampler(Protocol):

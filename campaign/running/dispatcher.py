@@ -3,8 +3,8 @@
 from collections.abc import Callable, Container, Iterator
 from threading import Lock
 
-from campaign.running.tally import Report, Tally
 from campaign.seeds import BASELINE
+from campaign.statistics.tally import Report, Tally
 
 
 class Dispatcher:

@@ -3,12 +3,12 @@
 from pathlib import Path
 
 from campaign.record import Record, Status, missing_values
-from campaign.running.attempts import Attempts
-from campaign.running.model import Setup, sizes
-from campaign.running.progress import say
-from campaign.running.tally import Tally, outcome_of, tally_of
 from campaign.scene import Scene
-from campaign.store import RecordStore
+from campaign.simulation.contract import Setup, sizes
+from campaign.statistics.tally import Tally, outcome_of, tally_of
+from campaign.storage.attempts import Attempts
+from campaign.storage.record_store import RecordStore
+from campaign.terminal import say
 
 
 class Level:

@@ -4,17 +4,12 @@ import math
 import time
 from collections.abc import Callable
 
-from campaign.durations import clock, duration
-from campaign.running.tally import Tally
-from campaign.statistics import Interval, mean_interval, std_interval
+from campaign.statistics.intervals import Interval, mean_interval, std_interval
+from campaign.statistics.tally import Tally
+from campaign.terminal import clock, duration, say
 
 PERIOD = 15.0
 """Seconds between lines when nothing else calls for one."""
-
-
-def say(text: str) -> None:
-    """Print a whole line at once, since ranks share the output."""
-    print(f"{text}\n", end="", flush=True)
 
 
 class Progress:

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from campaign.record import Record, Status, missing_values
-from campaign.running.attempts import Attempts
-from campaign.running.model import Model, sizes
-from campaign.running.signals import StopRequest
-from campaign.running.tally import Report, outcome_of
-from campaign.store import RecordStore
+from campaign.running.stop_request import StopRequest
+from campaign.simulation.contract import Model, sizes
+from campaign.statistics.tally import Report, outcome_of
+from campaign.storage.attempts import Attempts
+from campaign.storage.record_store import RecordStore
 
 LAST_CALL = 20.0
 """Seconds before the end of the job at which a realization is abandoned, to leave time for writing the results."""

@@ -6,8 +6,8 @@ import time
 import numpy as np
 import pytest
 
-from campaign.realization import prepare, strengthen
 from campaign.scene import load_scene
+from campaign.simulation.realization import prepare, strengthen
 from solver.constants import STANDARD_GRAVITY
 from solver.march import March
 from solver.step import advance

@@ -2,14 +2,16 @@
 
 import numpy as np
 
-from campaign import dataset, manifest, realization
-from campaign.provenance import attributes
 from campaign.record import FAILED, QUANTITIES, Record, Status, missing_values
-from campaign.running.model import sizes
-from campaign.running.tally import outcome_of, tally_of
+from campaign.results import dataset
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
-from campaign.store import RecordStore
+from campaign.simulation import realization
+from campaign.simulation.contract import sizes
+from campaign.statistics.tally import outcome_of, tally_of
+from campaign.storage import manifest
+from campaign.storage.provenance import attributes
+from campaign.storage.record_store import RecordStore
 
 OVERRIDES = ["numerics.cell=2 m", "numerics.output_interval=0.5 s", "campaign.minimum=10", "campaign.block=1"]
 

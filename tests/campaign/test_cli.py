@@ -9,7 +9,7 @@ import pytest
 from campaign import cli
 from campaign.running import walltime
 from campaign.running.launcher import mismatch
-from campaign.running.signals import ECHO, StopRequest
+from campaign.running.stop_request import ECHO, StopRequest
 
 
 @pytest.fixture(autouse=True)
@@ -26,8 +26,8 @@ def test_validate_accepts_a_scene_and_estimates_its_cost(capsys):
 
 def test_the_estimate_is_near_the_papers_number_of_particles():
     """10,090 particles (paper, section 3)."""
-    from campaign.cost import particle_count
     from campaign.scene import load_scene
+    from campaign.scene.cost import particle_count
 
     assert particle_count(load_scene("ma2023-printed")) == pytest.approx(10_090, rel=0.01)
 
@@ -38,7 +38,7 @@ def test_an_unknown_key_is_a_sentence_and_not_a_traceback(command, tmp_path):
     arguments += ["--out", str(tmp_path / "x")] if command == "run" else []
     program = "import sys; from campaign.cli import main; sys.exit(main())"
     if command == "run":
-        pytest.importorskip("campaign.realization")
+        pytest.importorskip("campaign.simulation.realization")
     result = subprocess.run([sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False)
     assert result.returncode == 2
     assert "cohesionn" in result.stderr
@@ -73,7 +73,7 @@ def test_scenes_lists_the_built_in_scenes(capsys):
 @pytest.mark.parametrize("command", [["status"], ["replay"]])
 def test_a_directory_without_a_campaign_is_refused(command, tmp_path, capsys):
     if command == ["replay"]:
-        pytest.importorskip("campaign.replay")
+        pytest.importorskip("campaign.commands.replay")
     code = cli.main([*command, str(tmp_path), *(["3"] if command == ["replay"] else [])])
     assert code == 2
     assert "holds no campaign" in capsys.readouterr().err
@@ -111,7 +111,7 @@ def test_a_lone_rank_of_many_is_noticed(size, environment, refused):
 
 def test_the_second_interrupt_stops_now_but_an_echo_of_the_first_does_not(monkeypatch):
     clock = [100.0]
-    monkeypatch.setattr("campaign.running.signals.time.monotonic", lambda: clock[0])
+    monkeypatch.setattr("campaign.running.stop_request.time.monotonic", lambda: clock[0])
     stop = StopRequest()
     stop.receive(2)
     stop.receive(2)

@@ -6,7 +6,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from campaign.convergence import Rule, checkpoints, history
+from campaign.statistics.convergence import Rule, checkpoints, history
 
 RULE = Rule(mean_tolerance=0.01, variance_tolerance=0.10, confidence=0.95, minimum=100, block=50)
 LOOSE = Rule(mean_tolerance=0.02, variance_tolerance=0.40, confidence=0.95, minimum=100, block=50)

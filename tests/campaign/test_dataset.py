@@ -8,11 +8,11 @@ import pytest
 import xarray as xr
 from records import SIZES, make_record
 
-from campaign import dataset
-from campaign.convergence import Rule, history
-from campaign.discretisation import Discretisation
 from campaign.record import QUANTITIES, Status
+from campaign.results import dataset
 from campaign.seeds import BASELINE
+from campaign.statistics.convergence import Rule, history
+from campaign.statistics.discretisation import Discretisation
 
 SETUP = SimpleNamespace(
     n_particles=SIZES["particle"],

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from small_campaign import small_scene
 
-from campaign import realization
-from campaign.detachment import connected_parts, detached_volume
+from campaign.simulation import realization
+from campaign.simulation.detachment import connected_parts, detached_volume
 from solver.grid import allocate_grid
 
 CELL = 2.0

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from small_campaign import small_scene
 
-from campaign.discretisation import Discretisation, estimate, with_half_cell
-from campaign.realization import build_sampler, prepare
 from campaign.record import Status
-from campaign.running.tally import Outcome, tally_of
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
+from campaign.simulation.realization import build_sampler, prepare
+from campaign.statistics.discretisation import Discretisation, estimate, with_half_cell
+from campaign.statistics.tally import Outcome, tally_of
 
 
 def account(scene, runouts, **statuses):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from campaign.doubts import detached_fronts, doubts
+from campaign.statistics.doubts import detached_fronts, doubts
 
 
 def normal_runouts(seed, n):

@@ -8,9 +8,9 @@ import sys
 
 import pytest
 
-from campaign.exit_codes import RefusalError
-from campaign.running import lock as lock_module
-from campaign.running.lock import DirectoryLock
+from campaign.errors import RefusalError
+from campaign.storage import lock as lock_module
+from campaign.storage.lock import DirectoryLock
 
 
 @pytest.fixture(autouse=True)
@@ -33,7 +33,7 @@ def test_a_second_campaign_is_refused_and_told_whom_it_met(tmp_path):
 
 
 def test_a_killed_holder_on_this_host_is_no_obstacle(tmp_path):
-    code = "import os; from pathlib import Path; from campaign.running.lock import DirectoryLock as D; "
+    code = "import os; from pathlib import Path; from campaign.storage.lock import DirectoryLock as D; "
     code += f"D(Path({str(tmp_path)!r})).acquire(); os.kill(os.getpid(), 9)"
     subprocess.run([sys.executable, "-c", code], check=False)
     assert "takes over" in DirectoryLock(tmp_path).acquire()
@@ -41,7 +41,7 @@ def test_a_killed_holder_on_this_host_is_no_obstacle(tmp_path):
 
 def test_a_zombie_is_dead(tmp_path):
     code = (
-        "from pathlib import Path; from campaign.running.lock import DirectoryLock as Lock; "
+        "from pathlib import Path; from campaign.storage.lock import DirectoryLock as Lock; "
         f"Lock(Path({str(tmp_path)!r})).acquire()"
     )
     process = subprocess.Popen([sys.executable, "-c", code])

@@ -2,36 +2,14 @@
 
 import ast
 import json
+import shutil
 
 import pytest
 
-from campaign import manifest, provenance
-from campaign.exit_codes import RefusalError
+from campaign.errors import RefusalError
 from campaign.scene import load_scene
-
-SHARED = ("exit_codes", "files", "record", "scene", "scene_file")
-"""Imported on the way to a realization, but what they decide is in the scene's identity or in the record itself."""
-
-
-def source(module):
-    return provenance.PACKAGE.joinpath(*module.split(".")).with_suffix(".py")
-
-
-def imported(module):
-    """Return the modules of `campaign` that a module imports, without the package's name."""
-    tree = ast.parse(source(module).read_text())
-    names = [node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module]
-    return {name.partition(".")[2] for name in names if name.startswith("campaign.")}
-
-
-def test_every_module_that_decides_a_realization_is_hashed():
-    found, waiting = set(), {"realization"}
-    while waiting:
-        module = waiting.pop()
-        found.add(module)
-        waiting |= {name for name in imported(module) if name.partition(".")[0] not in SHARED} - found
-    hashed = {path for name in provenance.REALIZATION_SOURCES for path in provenance.PACKAGE.glob(f"{name}.py")}
-    assert {source(module) for module in found} == {path for path in hashed if path.name != "__init__.py"}
+from campaign.storage import manifest, provenance
+from campaign.storage.source_hash import HOME, deciding_modules, program_hash, realization_hash
 
 
 @pytest.fixture
@@ -52,7 +30,7 @@ def test_another_scene_is_refused_with_the_keys_that_differ(begun):
 
 
 def test_another_solver_is_refused_unless_drift_is_allowed_and_then_recorded(begun, monkeypatch):
-    monkeypatch.setattr(manifest, "realization_hash", lambda: "f" * 64)
+    monkeypatch.setattr(provenance, "realization_hash", lambda: "f" * 64)
     scene = load_scene("ma2023")
     with pytest.raises(RefusalError, match="--allow-drift"):
         manifest.begin(begun, scene, 2, allow_drift=False)
@@ -63,7 +41,7 @@ def test_another_solver_is_refused_unless_drift_is_allowed_and_then_recorded(beg
 
 
 def test_a_changed_library_is_mentioned(begun):
-    path = begun / manifest.NAME
+    path = begun / "manifest.json"
     kept = json.loads(path.read_text())
     kept["starts"][-1]["versions"]["numpy"] = "1.0"
     path.write_text(json.dumps(kept))
@@ -78,6 +56,63 @@ def test_a_directory_full_of_other_things_is_refused(tmp_path):
 
 
 def test_a_damaged_manifest_is_refused(begun):
-    (begun / manifest.NAME).write_text("{")
+    (begun / "manifest.json").write_text("{")
     with pytest.raises(RefusalError, match="damaged"):
         manifest.begin(begun, load_scene("ma2023"), 1, allow_drift=False)
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory):
+    """A copy of the program, in which a test may change a line."""
+    copy = tmp_path_factory.mktemp("program")
+    for package in ("campaign", "solver"):
+        shutil.copytree(HOME / package, copy / package, ignore=shutil.ignore_patterns("__pycache__"))
+    return copy
+
+
+def test_the_program_that_decides_a_realization_begins_with_its_fields_and_ends_with_its_record():
+    modules = deciding_modules()
+    assert {
+        "campaign.scene.sections",
+        "campaign.fields.correlation",
+        "campaign.simulation.detachment",
+        "campaign.seeds",
+        "solver.step",
+        "solver.surface",
+    } <= modules.keys()
+    bystanders = ("campaign.cli", "campaign.report", "campaign.running", "campaign.results", "campaign.statistics")
+    assert not [name for name in modules if name.startswith(bystanders)]
+
+
+def first_number(path):
+    """Return the first number in the code of a file, or None."""
+    numbers = (
+        node
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.Constant) and type(node.value) in (int, float)
+    )
+    return next(numbers, None)
+
+
+@pytest.mark.parametrize("module", [name for name, path in deciding_modules().items() if first_number(path)])
+def test_a_changed_number_is_a_new_program(module, program):
+    path = deciding_modules(program)[module]
+    text, number = path.read_text(), first_number(path)
+    lines = text.split("\n")
+    line, begin, end = number.lineno - 1, number.col_offset, number.end_col_offset
+    lines[line] = f"{lines[line][:begin]}({lines[line][begin:end]} + 1){lines[line][end:]}"
+    before = program_hash({module: path})
+    path.write_text("\n".join(lines))
+    changed = program_hash({module: path})
+    path.write_text(text)
+    assert changed != before == program_hash({module: path})
+
+
+def test_a_changed_sentence_is_no_new_program(program):
+    before = realization_hash(program)
+    for path in deciding_modules(program).values():
+        first, _, rest = path.read_text().partition("\n")
+        path.write_text(f"{first}\n{rest}\n# as before\n")
+        if first.endswith('"""'):
+            path.write_text(path.read_text().replace(first, f"{first[:-3]} Or so.{first[-3:]}", 1))
+    assert realization_hash(program) == before

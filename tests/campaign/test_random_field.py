@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from campaign.fields.lognormal import Lognormal, gaussian_cross_correlation
+from campaign.errors import SamplerError
+from campaign.fields.marginals import Lognormal, gaussian_cross_correlation
 from campaign.fields.reference_grid import ReferenceGrid
-from campaign.fields.samplers import SamplerError
-from campaign.random_field import strength_sampler
+from campaign.fields.strengths import strength_sampler
 from campaign.seeds import BASELINE
 
 COHESION = SimpleNamespace(mean=20e3, cov=0.3)

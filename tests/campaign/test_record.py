@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from records import SIZES, assert_same, make_record
 
-from campaign import store as store_module
-from campaign.record import QUANTITIES, DamagedRecordError, Status, missing_values
+from campaign.errors import DamagedRecordError
+from campaign.record import QUANTITIES, Status, missing_values
 from campaign.seeds import BASELINE
-from campaign.store import RecordStore
+from campaign.storage import record_store as store_module
+from campaign.storage.record_store import RecordStore
 
 
 @pytest.fixture

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from small_campaign import run, small_scene
 
-from campaign import replay as replaying
-from campaign.exit_codes import RefusalError
+from campaign.commands import replay as replaying
+from campaign.commands.replay import replay, verdict
+from campaign.errors import RefusalError
 from campaign.record import Status
-from campaign.replay import replay, verdict
 from campaign.seeds import BASELINE
-from campaign.store import RecordStore
-from campaign.vtkhdf import ParticleFile
+from campaign.storage.record_store import RecordStore
+from campaign.storage.vtkhdf import ParticleFile
 
 
 @pytest.fixture(scope="module")

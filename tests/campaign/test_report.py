@@ -9,18 +9,18 @@ import pytest
 import xarray as xr
 from small_campaign import conclude, made_up, run, small_scene
 
-from campaign import report
-from campaign.answer import answer
-from campaign.budget import error_budget
-from campaign.exit_codes import RefusalError
-from campaign.figures import style
-from campaign.realization import build_sampler, prepare
+from campaign.errors import RefusalError
 from campaign.record import Status
-from campaign.report import write_report
-from campaign.results import Results, read_results
-from campaign.running.summary import summary
+from campaign.report import page as report
+from campaign.report.answer import answer
+from campaign.report.error_budget import error_budget
+from campaign.report.figures import style
+from campaign.report.page import write_report
+from campaign.report.snapshots import see_again
+from campaign.report.summary import summary
+from campaign.results.results import Results, read_results
 from campaign.seeds import BASELINE
-from campaign.snapshots import see_again
+from campaign.simulation.realization import build_sampler, prepare
 
 PNG = b"\x89PNG\r\n\x1a\n"
 FIGURES = 8

@@ -5,10 +5,11 @@ import pickle
 import numpy as np
 import pytest
 
+from campaign.errors import SamplerError
 from campaign.fields import samplers
 from campaign.fields.cholesky import CholeskySampler
 from campaign.fields.correlation import KERNELS, Correlation
-from campaign.fields.samplers import CirculantSampler, KroneckerSampler, SamplerError
+from campaign.fields.samplers import CirculantSampler, KroneckerSampler
 
 ROWS, COLUMNS, SPACING = 5, 7, 0.5
 X, Y = SPACING * (np.arange(COLUMNS) + 0.5), SPACING * (np.arange(ROWS) + 0.5)

@@ -12,10 +12,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from campaign.scene import Scene, SceneError, SceneFile, builtin_scenes, differences, load_scene
-from campaign.scene_file.check import flatten, mistakes
-from campaign.scene_file.document import Document, key_lines, read_document
-from campaign.scene_file.rules.soil import EXTREME_QUANTILE, largest_allowed_cov
+from campaign.errors import SceneError
+from campaign.scene import Scene, builtin_scenes, differences, load_scene
+from campaign.scene.check import mistakes
+from campaign.scene.document import Document, key_lines, read_document
+from campaign.scene.rules.soil import EXTREME_QUANTILE, largest_allowed_cov
+from campaign.scene.scene import flatten
+from campaign.scene.sections import SceneFile
 
 EXAMPLE = read_document("ma2023")
 SURFACE = [["0 m", "19 m"], ["20 m", "19 m"], ["35 m", "4 m"], ["75 m", "4 m"]]

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from campaign.statistics import (
+from campaign.statistics.intervals import (
     Interval,
     failure_bounds,
     kurtosis,

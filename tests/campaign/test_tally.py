@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from campaign.convergence import Rule
 from campaign.record import Status
 from campaign.running.dispatcher import Dispatcher
-from campaign.running.tally import Outcome, Report, Tally
 from campaign.seeds import BASELINE
+from campaign.statistics.convergence import Rule
+from campaign.statistics.tally import Outcome, Report, Tally
 
 RULE = Rule(mean_tolerance=0.05, variance_tolerance=0.5, confidence=0.95, minimum=20, block=10)
 RUNOUTS = np.random.default_rng(1).normal(10, 0.5, 200)

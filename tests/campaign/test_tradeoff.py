@@ -7,14 +7,15 @@ import pytest
 import xarray as xr
 from small_campaign import small_scene
 
-from campaign import cli, tradeoff
-from campaign.exit_codes import RefusalError
-from campaign.figures.style import in_style
-from campaign.figures.tradeoff import chart
-from campaign.realization import build_sampler, prepare, simulate
+from campaign import cli
+from campaign.errors import RefusalError
+from campaign.report.figures.style import in_style
 from campaign.scene import load_scene
-from campaign.tradeoff import OWN, Tradeoff, Trial, settings
-from campaign.tradeoff_report import rows, table
+from campaign.simulation.realization import build_sampler, prepare, simulate
+from campaign.tradeoff import trials as tradeoff
+from campaign.tradeoff.chart import chart
+from campaign.tradeoff.table import rows, table
+from campaign.tradeoff.trials import OWN, Tradeoff, Trial, settings
 
 SHORT = ["numerics.end_time=3 s", "numerics.cell=2 m", "campaign.realizations=1"]
 

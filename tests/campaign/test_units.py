@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from campaign.scene_file.units import ANGLE, LENGTH, PRESSURE, TIME, UNIT_WEIGHT, Kind, si_value
+from campaign.scene.units import ANGLE, LENGTH, PRESSURE, TIME, UNIT_WEIGHT, Kind, si_value
 
 
 @pytest.mark.parametrize(
@@ -63,5 +63,5 @@ def test_what_is_not_such_a_quantity_is_refused_with_its_remedy(text: object, ki
 
 def test_importing_the_scene_does_not_load_pint() -> None:
     """Pint and its registry take a quarter of a second; workers that are handed a scene never need them."""
-    check = "import sys, campaign.scene; sys.exit('pint' in sys.modules)"
+    check = "import sys, campaign.scene.sections; sys.exit('pint' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", check], check=False).returncode == 0

@@ -21,12 +21,12 @@ SIZES = {"time": 11, "x": 7, "particle": 13}
 
 
 class Interrupted(Exception):  # noqa: N818 -- not an error
-    """As in `campaign.realization`."""
+    """As in `campaign.simulation.realization`."""
 
 
 @dataclass
 class Setup:
-    """As in `campaign.realization`."""
+    """As in `campaign.simulation.realization`."""
 
     scene: Scene
     n_particles: int = SIZES["particle"]
@@ -83,7 +83,7 @@ def record(seed: int, realization: int, cell: float) -> Record:
 
 
 if __name__ == "__main__":
-    from campaign.runner import run
+    from campaign.running.runner import run
 
     directory, count, *overrides = sys.argv[1:]
     wanted = [f"campaign.realizations={count}", "campaign.discretisation_pairs=0", *overrides]

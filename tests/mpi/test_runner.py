@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from campaign.status import status
+from campaign.commands.status import status
 
 MPIRUN = Path(sys.prefix) / "bin" / "mpirun"
 STAND_IN = Path(__file__).with_name("stand_in.py")

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from solver.geometry import slope_surface
 from solver.model import Model, make_soil
 from solver.step import STRESS_UPDATES, Scheme
+from solver.surface import slope_surface
 
 COHESION, FRICTION_ANGLE = 4e3, np.radians(8.0)
 

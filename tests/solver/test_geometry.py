@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from solver.geometry import Surface, fill_ground, slope_surface
+from solver.filling import fill_ground
+from solver.surface import Surface, slope_surface
 
 
 def surface(*points):

@@ -6,9 +6,10 @@ from small_slope import small_model
 
 from solver import observables
 from solver.constants import STANDARD_GRAVITY
-from solver.geometry import Surface, fill_ground
-from solver.gravity import LOCAL_DAMPING, NotSettledError, in_situ_state, lay_geostatic_stress, unbalanced_share
+from solver.filling import fill_ground
+from solver.in_situ import LOCAL_DAMPING, NotSettledError, in_situ_state, lay_geostatic_stress, unbalanced_share
 from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace
+from solver.surface import Surface
 from solver.timestep import stable_step
 
 LEVEL = Surface(np.array([0.0, 5.0]), np.array([4.0, 4.0]))

@@ -9,8 +9,8 @@ from small_slope import small_model, with_strength
 
 from solver.basis import half_length_in_cells
 from solver.constants import STANDARD_GRAVITY
-from solver.geometry import fill_ground
-from solver.gravity import in_situ_state
+from solver.filling import fill_ground
+from solver.in_situ import in_situ_state
 from solver.march import March, Outcome, RestDetector, run
 from solver.operations import GRAVITY_WORK
 from solver.particles import copy_particles

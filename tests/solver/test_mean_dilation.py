@@ -6,8 +6,8 @@ from small_slope import small_model, with_strength
 
 from solver import mean_dilation
 from solver._jit import kernel
-from solver.geometry import fill_ground
-from solver.gravity import in_situ_state
+from solver.filling import fill_ground
+from solver.in_situ import in_situ_state
 from solver.march import Outcome, run
 from solver.model import make_soil
 from solver.operations import INTERNAL_WORK

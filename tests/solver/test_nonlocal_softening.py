@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from small_slope import small_model, with_strength
 
-from solver.geometry import Surface, fill_ground
-from solver.gravity import in_situ_state
+from solver.filling import fill_ground
 from solver.grid import allocate_grid
+from solver.in_situ import in_situ_state
 from solver.internal_length import BAND_THICKNESS, coarse_rate_factor, least_thickness, smoothing_weights
 from solver.march import run
 from solver.nonlocal_softening import average_plastic_strain
+from solver.surface import Surface
 
 LENGTH = 1.0  # m
 LEVEL = Surface(np.array([0.0, 8.0]), np.array([8.0, 8.0]))

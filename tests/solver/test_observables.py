@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from solver import observables
-from solver.geometry import Surface, fill_ground
+from solver.filling import fill_ground
 from solver.grid import allocate_grid
 from solver.particles import allocate_particles, copy_particles
 from solver.slide import PAPER
 from solver.step import allocate_workspace, spread_all
+from solver.surface import Surface
 
 CUT = Surface(np.array([0.0, 10.0, 10.0, 30.0]), np.array([8.0, 8.0, 4.0, 4.0]))  # toe at x = 10, y = 4
 

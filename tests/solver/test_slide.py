@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from small_slope import COHESION, small_model, with_strength
 
-from solver.geometry import Surface
-from solver.gravity import in_situ_state
+from solver.in_situ import in_situ_state
 from solver.march import Outcome, RestDetector, run
 from solver.observables import runout_mass, sliding_volume
 from solver.slide import PAPER, Slide
+from solver.surface import Surface
 
 
 def scaled_run(scale):

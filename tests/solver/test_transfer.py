@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from solver.basis import allocate_stencil, evaluate_stencil
-from solver.geometry import Surface, fill_ground
+from solver.filling import fill_ground
 from solver.grid import allocate_grid
 from solver.model import make_soil
 from solver.particles import allocate_particles
 from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace, spread_all
+from solver.surface import Surface
 from solver.transfer import gradient, interpolate
 
 CELL = 0.5

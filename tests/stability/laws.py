@@ -5,10 +5,10 @@ from bodies import BASES
 from driver import MUSL, elastic_soil, grid_without_walls, lattice
 from scipy import stats
 
+from campaign.errors import SamplerError
 from campaign.fields.cholesky import cholesky_factor
 from campaign.fields.correlation import Correlation
-from campaign.fields.samplers import SamplerError
-from campaign.statistics import variance_interval
+from campaign.statistics.intervals import variance_interval
 from solver.basis import allocate_stencil, evaluate_stencil
 from solver.kinematics import rotate_stress
 from solver.particles import allocate_particles

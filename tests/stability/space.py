@@ -4,12 +4,12 @@ import numpy as np
 from bodies import BASES
 from driver import MUSL, elastic_soil, grid_without_walls, lattice, node_indices
 
-from campaign.detachment import detached_volume
+from campaign.simulation.detachment import detached_volume
 from solver.basis import allocate_stencil, evaluate_stencil
-from solver.geometry import Surface
 from solver.model import make_soil
 from solver.particles import allocate_particles, copy_particles
 from solver.step import advance, allocate_workspace
+from solver.surface import Surface
 
 STRETCHES = np.arange(1.0, 7.0, 0.01)
 

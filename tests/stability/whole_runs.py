@@ -9,10 +9,10 @@ from unittest.mock import patch
 
 import numpy as np
 
-from campaign import realization
-from campaign.exit_codes import RefusalError
+from campaign.errors import RefusalError
 from campaign.record import FAILED
 from campaign.scene import load_scene
+from campaign.simulation import realization
 
 SLOPE = ["numerics.cell=2 m", "numerics.output_interval=0.5 s", "geometry.slope.crest=10 m"]
 

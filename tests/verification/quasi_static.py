@@ -11,13 +11,14 @@ import numpy as np
 from solver import observables
 from solver._jit import kernel
 from solver.constants import STANDARD_GRAVITY
-from solver.geometry import Surface, fill_ground
-from solver.gravity import LOCAL_DAMPING, in_situ_state, unbalanced_share
+from solver.filling import fill_ground
 from solver.grid import PADDING, SMALLEST_MASS
+from solver.in_situ import LOCAL_DAMPING, in_situ_state, unbalanced_share
 from solver.model import Model, make_soil
 from solver.operations import solve_momentum
 from solver.particles import copy_particles
 from solver.step import LOCKING, STRESS_UPDATES, Scheme, accelerate, advance, allocate_workspace, begin, deform
+from solver.surface import Surface
 from solver.timestep import stable_step
 
 YOUNG_MODULUS, POISSON_RATIO = 1e9, 0.3

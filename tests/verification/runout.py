@@ -14,9 +14,9 @@ from pathlib import Path
 import runout_report
 from runout_ladders import LADDERS, NOISE, key_of
 
-from campaign.realization import build_sampler, prepare, simulate
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
+from campaign.simulation.realization import build_sampler, prepare, simulate
 
 STORE = Path(__file__).with_suffix(".json")
 KEPT = ("final_runout_mass", "final_runout", "sliding_volume", "settle_time", "energy_error", "wall_time")

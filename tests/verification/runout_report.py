@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from runout_ladders import BY_CELL, NOISE, OTHERS, key_of
 
-from campaign.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, WIDTH, in_style
+from campaign.report.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, WIDTH, in_style
 
 LEGEND = [
     ("ma2023: cell averages, internal length", BLUE, "o-"),

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from driver import Row
 
-from campaign.detachment import detached_volume
-from campaign.realization import prepare, strengthen
 from campaign.scene import load_scene
+from campaign.simulation.detachment import detached_volume
+from campaign.simulation.realization import prepare, strengthen
 from solver import observables
 from solver.march import Outcome, run
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from driver import Row
 
-from campaign.random_field import strength_sampler
+from campaign.fields.strengths import strength_sampler
 
 COHESION = SimpleNamespace(mean=20e3, cov=0.1)
 FRICTION = SimpleNamespace(mean=np.radians(10.0), cov=0.1)

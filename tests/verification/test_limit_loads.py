@@ -11,7 +11,7 @@ import pytest
 from driver import Row
 from quasi_static import bearing_pressure, factor_of_safety, quasi_static_model
 
-from solver.geometry import Surface, slope_surface
+from solver.surface import Surface, slope_surface
 
 PRANDTL = 2.0 + math.pi
 UNIT_WEIGHT = 20e3

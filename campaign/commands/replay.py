@@ -1,0 +1,148 @@
+"""One realization again, with everything its particles go through, for a look in ParaView."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from campaign.errors import DamagedRecordError, RefusalError
+from campaign.record import Record
+from campaign.results.results import check_same
+from campaign.scene import kept_scene
+from campaign.seeds import BASELINE
+from campaign.simulation.realization import Array, Setup, build_sampler, draw_strengths, prepare, simulate, strengthen
+from campaign.storage import manifest
+from campaign.storage.record_store import RecordStore, file_name
+from campaign.storage.vtkhdf import ParticleFile
+from campaign.terminal import say
+from solver.march import March
+from solver.mohr_coulomb import Soil
+from solver.particles import Particles
+from solver.softening import remaining_share
+
+MACHINE_TIME = ("wall_time",)
+"""Quantities of a record that no repetition can reproduce."""
+
+_remaining_share = np.vectorize(remaining_share, otypes=[float])
+
+
+def replay(directory: Path, realization: int) -> Path:
+    """Simulate a realization of a campaign again and write its particles at every output time.
+
+    It says whether the result is the recorded one, bit for bit. A realization that crashes leaves the times before.
+
+    Parameters
+    ----------
+    directory : Path
+        Of the campaign.
+    realization : int
+        Its id; `BASELINE` for mean strengths everywhere.
+
+    Returns
+    -------
+    Path
+        The VTKHDF file, in `directory`/replay.
+
+    Raises
+    ------
+    RefusalError
+        When there is no such realization, or when this version would compute another one.
+    """
+    setup = prepare_again(directory, realization)
+    sampler = build_sampler(setup, directory)
+    path = _new_file(directory, realization)
+    peak = strengthen(setup, *draw_strengths(setup, sampler, realization))
+    fixed = {"peak_cohesion": peak.cohesion, "peak_friction_angle": peak.friction_angle}
+    with ParticleFile(path, fixed) as file:
+        record = simulate(
+            setup, sampler, realization, lambda: False, lambda march: file.append(march.time, *state(march))
+        )
+    say(verdict(record, _recorded(directory, realization)))
+    return path
+
+
+def prepare_again(directory: Path, realization: int) -> Setup:
+    """Prepare the scene of a campaign as it was when realization k was computed."""
+    if realization < BASELINE:
+        raise RefusalError(f"There is no realization {realization}; give 0 or more, or {BASELINE} for mean strengths.")
+    about = manifest.read(directory)
+    scene = kept_scene(about["scene"], about["overrides"])
+    check_same(scene, about["digest"])
+    return prepare(scene)
+
+
+def state(march: March) -> tuple[Array, dict[str, Array]]:
+    """Return the places (n, 3) of the particles in m and, by name, what they carry, in SI units.
+
+    The elevation is the second coordinate, as ParaView looks along the third. Vectors have three components, and the
+    symmetric stress has six: xx, yy, zz, xy, yz, xz.
+    """
+    now, start, soil = march.particles, march.start, march.model.soil
+    zero = np.zeros_like(now.x)
+    points = np.column_stack([now.x, now.y, zero])
+    cohesion, friction_angle = mobilised_strength(now, soil)
+    return points, {
+        "displacement": points - np.column_stack([start.x, start.y, zero]),
+        "velocity": np.column_stack([now.velocity_x, now.velocity_y, zero]),
+        "stress": np.column_stack([now.stress_xx, now.stress_yy, now.stress_zz, now.stress_xy, zero, zero]),
+        "plastic_strain": now.plastic_strain,
+        "cohesion": cohesion,
+        "friction_angle": friction_angle,
+        "volume": now.volume,
+    }
+
+
+def mobilised_strength(particles: Particles, soil: Soil) -> tuple[Array, Array]:
+    """Return what softening has left of cohesion (Pa) and friction angle (rad), each (n,)."""
+    share = _remaining_share(particles.plastic_strain, soil.softening_rate, soil.softening_is_linear)
+    return (
+        soil.cohesion_residual + (particles.cohesion - soil.cohesion_residual) * share,
+        soil.friction_residual + (particles.friction_angle - soil.friction_residual) * share,
+    )
+
+
+def verdict(record: Record, kept: Record | None) -> str:
+    """Say whether a realization is the one that was recorded."""
+    name = "The deterministic run" if record.realization == BASELINE else f"Realization {record.realization}"
+    runout = float(record.values["final_runout"])
+    if kept is None:
+        return f"{name} has no record to compare with; its final run-out is {runout:.3f} m."
+    different = differing(record, kept)
+    if not different:
+        return f"{name} is the recorded one, bit for bit; its final run-out is {runout:.3f} m."
+    found = f"its final run-out is {runout!r} m, recorded {float(kept.values['final_runout'])!r} m"
+    if "final_runout" not in different:
+        found = f"its final run-out is still {runout:.3f} m, bit for bit"
+    return (
+        f"{name} is NOT the recorded one in {', '.join(different)}; {found}. The solver, a library or the kind of "
+        "processor has changed since: compare the versions in manifest.json."
+    )
+
+
+def differing(record: Record, kept: Record) -> list[str]:
+    """Name what is not the same, bit for bit, in two records of a realization."""
+    names = [] if record.status == kept.status else ["status"]
+    for name, value in record.values.items():
+        if name not in MACHINE_TIME and not _equal(value, kept.values[name]):
+            names.append(name)
+    return names
+
+
+def _equal(one: Any, other: Any) -> bool:
+    return np.array_equal(one, other, equal_nan=True)
+
+
+def _recorded(directory: Path, realization: int) -> Record | None:
+    try:
+        return RecordStore(directory).read(realization)
+    except (KeyError, DamagedRecordError):
+        return None
+
+
+def _new_file(directory: Path, realization: int) -> Path:
+    path = directory / "replay" / f"{file_name(realization)}.vtkhdf"
+    try:
+        path.parent.mkdir(exist_ok=True)
+    except OSError as error:
+        raise RefusalError(f"{path.parent} cannot be written ({error}); copy the campaign to where it can.") from error
+    return path

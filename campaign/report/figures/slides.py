@@ -1,0 +1,104 @@
+"""Single slides: how one goes, the strength it had, and how far the shortest, the median and the longest came."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+
+from campaign.record import FAILED
+from campaign.report.figures.section import MOVED, Section
+from campaign.report.figures.style import WIDTH, Illustration, letter, new_figure, upper_limit
+from campaign.report.snapshots import Slide
+from campaign.simulation.realization import Setup
+
+CAPTION_OUTLINE = "Dashed: the ground before the slide; orange: run-out from the initial toe."
+
+
+def configurations(section: Section, slide: Slide) -> Illustration:
+    """Draw the deterministic slide at its snapshots, coloured by displacement (figure 3 of the paper)."""
+    shots = slide.snapshots
+    figure, panels = _stack(section, len(shots))
+    limits = (0.0, upper_limit(shots[-1].displacement))
+    for panel, shot in zip(panels, shots, strict=True):
+        particles = section.draw(panel, shot.x, shot.z, shot.displacement, "viridis", limits, MOVED)
+        section.mark_runout(panel, shot.runout)
+    letter(panels, [f"{shot.time:.1f} s" for shot in shots])
+    panels[-1].set_title(f"{panels[-1].get_title(loc='left')}, the end", loc="left")
+    _colour_bar(figure, panels, particles, "displacement (m)")
+    caption = (
+        f"The deterministic slide, with mean strengths everywhere, from the release of strength to its end after "
+        f"{shots[-1].time:.1f} s, coloured by displacement. {CAPTION_OUTLINE}"
+    )
+    if slide.record.status in FAILED:
+        caption += f" It failed then: {slide.record.reason}"
+    alt = f"Cross-sections of the slope at {len(shots)} times; the final run-out is {shots[-1].runout:.2f} m."
+    return Illustration(figure, caption, alt)
+
+
+def strengths(section: Section, setup: Setup, slide: Slide) -> Illustration:
+    """Draw peak cohesion and friction angle where the particles were at first (figure 4 of the paper)."""
+    figure, panels = _stack(section, 2, colour_bars=2)
+    ground, k = setup.ground, slide.realization
+    fields = {"cohesion (kPa)": slide.cohesion / 1e3, "friction angle (°)": np.degrees(slide.friction_angle)}
+    for panel, (label, values) in zip(panels, fields.items(), strict=True):
+        low, high = (float(np.percentile(values, share)) for share in (0.5, 99.5))
+        particles = section.draw(panel, ground.x, ground.y, values, "cividis", (low, max(high, low + 1e-9)))
+        _colour_bar(figure, [panel], particles, label, extend="both")
+    letter(panels, ["peak cohesion", "peak friction angle"])
+    asked = setup.scene.field.cross_correlation
+    correlation = np.corrcoef(slide.cohesion, slide.friction_angle)[0, 1]
+    caption = (
+        f"Peak strength of realization {k}, whose final run-out is the median of all, where the particles were before "
+        f"the slide. Dark is weak. Over these particles cohesion and friction angle are correlated by "
+        f"{correlation:.2f}; asked, over all realizations, was {asked:g}."
+    )
+    alt = f"Two maps of the slope: cohesion and friction angle of realization {k}, in layers longer than high."
+    return Illustration(figure, caption, alt)
+
+
+def outcomes(section: Section, slides: Mapping[str, Slide]) -> Illustration:
+    """Draw plastic strain at the end of some slides, by what they are called (figure 5 of the paper)."""
+    figure, panels = _stack(section, len(slides))
+    strain = np.concatenate([slide.end.plastic_strain for slide in slides.values()])
+    limits = (0.0, upper_limit(strain))
+    for panel, slide in zip(panels, slides.values(), strict=True):
+        end = slide.end
+        particles = section.draw(panel, end.x, end.z, end.plastic_strain, "magma_r", limits, MOVED)
+        section.mark_runout(panel, end.runout)
+    letter(panels, [f"{called}: realization {slide.realization}" for called, slide in slides.items()])
+    _colour_bar(figure, panels, particles, "plastic strain (-)", extend="max")
+    named = _listing([f"{called} ({slide.end.runout:.2f} m)" for called, slide in slides.items()])
+    caption = (
+        f"Plastic strain at the end of the slide with the {named} final run-out. The colours end where "
+        f"0.5 % of the particles lie beyond; the largest value is {strain.max():.2g}. {CAPTION_OUTLINE}"
+    )
+    alt = f"Cross-sections of deposits with their plastic strain: the {named} final run-out."
+    return Illustration(figure, caption, alt)
+
+
+def _stack(section: Section, rows: int, colour_bars: int = 1) -> tuple[Figure, list[Axes]]:
+    figure, panels = new_figure(
+        rows * (0.86 * WIDTH * section.panel_height + 0.27) + 0.75 * colour_bars, rows, sharex=True
+    )
+    panels[-1].set_xlabel("distance (m)")
+    return figure, panels
+
+
+def _colour_bar(
+    figure: Figure, panels: Sequence[Axes], particles: PolyCollection, label: str, extend: str = "max"
+) -> None:
+    bar: dict[str, Any] = {
+        "location": "bottom",
+        "shrink": 0.6,
+        "aspect": 40,
+        "extend": extend,
+        "pad": 0.08 / len(panels),
+    }
+    figure.colorbar(particles, ax=list(panels), label=label, **bar)
+
+
+def _listing(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

@@ -1,0 +1,77 @@
+"""Pictures of a slide on its way, for the figures; taken while the realization is simulated again."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from campaign.fields.strengths import StrengthSampler
+from campaign.record import Record
+from campaign.simulation.realization import Array, Setup, draw_strengths, simulate, strengthen
+from solver.march import March
+from solver.observables import displacement, runout
+
+
+class Snapshot(NamedTuple):
+    """The particles at one time."""
+
+    time: float  # s since release
+    x: Array  # (n,) m
+    z: Array  # (n,) m
+    displacement: Array  # (n,) m since release
+    plastic_strain: Array  # (n,)
+    runout: float  # m
+
+
+@dataclass(frozen=True)
+class Slide:
+    """One realization seen again.
+
+    Parameters
+    ----------
+    record : Record
+    cohesion, friction_angle : array (n,)
+        Peak strength of the particles in Pa and rad.
+    snapshots : sequence of Snapshot
+        At the times asked for that came before the end, and at the end.
+    """
+
+    record: Record
+    cohesion: Array
+    friction_angle: Array
+    snapshots: Sequence[Snapshot]
+
+    @property
+    def realization(self) -> int:
+        """Its id."""
+        return self.record.realization
+
+    @property
+    def end(self) -> Snapshot:
+        """The last snapshot."""
+        return self.snapshots[-1]
+
+
+def see_again(setup: Setup, sampler: StrengthSampler, realization: int, times: Sequence[float] = ()) -> Slide:
+    """Simulate a realization again and take snapshots at the output times nearest to `times` (s), and at the end."""
+    outputs = setup.coordinates["time"]
+    wanted = {float(outputs[np.argmin(np.abs(outputs - time))]) for time in times}
+    snapshots: list[Snapshot] = []
+
+    def observe(march: March) -> None:
+        if snapshots and snapshots[-1].time not in wanted:
+            snapshots.pop()
+        snapshots.append(snapshot(march))
+
+    record = simulate(setup, sampler, realization, lambda: False, observe)
+    strength = strengthen(setup, *draw_strengths(setup, sampler, realization))
+    return Slide(record, strength.cohesion, strength.friction_angle, snapshots)
+
+
+def snapshot(march: March) -> Snapshot:
+    """Return what a figure shows of a march."""
+    now, start = march.particles, march.start
+    moved = displacement(now, start)
+    front = runout(now, start, march.model.surface, march.model.slide)
+    return Snapshot(march.time, now.x.copy(), now.y.copy(), moved, now.plastic_strain.copy(), front)

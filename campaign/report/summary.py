@@ -1,0 +1,29 @@
+"""The last words of a campaign on the terminal, which are those of its report."""
+
+from textwrap import fill
+
+from campaign.report.answer import answer, reasons_for_doubt
+from campaign.report.error_budget import Row, error_budget, modelling_choices
+from campaign.results.results import Results
+
+WIDTH = 110
+
+
+def summary(results: Results) -> str:
+    """Return the answer of a campaign, its error budget and what it rests on as text."""
+    counts = ", ".join(f"{count} {status.name}" for status, count in results.by_status().items() if count)
+    return "\n".join(
+        [
+            *(fill(sentence, WIDTH) for sentence in (answer(results), *reasons_for_doubt(results))),
+            f"Of {results.realizations} realizations: {counts}.",
+            f"Error budget at {100 * results.confidence:g} % confidence",
+            *(f"  {row.source:16}{_words(row)}" for row in error_budget(results)),
+            "What the answer rests on",
+            *(f"  {name:20}{choice}" for name, choice in modelling_choices(results.scene).items()),
+        ]
+    )
+
+
+def _words(row: Row) -> str:
+    interval, n = f" ({row.interval})" if row.interval else "", f", n = {row.n}" if row.n else ""
+    return f"{row.quantity}: {row.value}{interval}{n}"

@@ -1,0 +1,1 @@
+"""From records to one dataset, and back from its file."""

@@ -1,0 +1,185 @@
+"""From records to `results.nc`: an xarray dataset after CF-1.11, indexed by realization and time.
+
+Whatever depends on ranks, hosts or clocks has "wall", "rank" or "host" in its name or is an attribute: everything else
+is the same, bit for bit, however the campaign was computed.
+"""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from campaign.record import FAILED, QUANTITIES, Record, Status
+from campaign.simulation.contract import Setup
+from campaign.statistics.convergence import History
+from campaign.statistics.discretisation import METHOD, Discretisation
+from campaign.storage.files import publish, temporary_name
+
+CHUNK = 64
+"""Realizations in a chunk; the library's own choice for an unlimited dimension is 1, thirty times slower to read."""
+
+TOTALS = ("displaced",)
+"""Quantities that enter the dataset as a mean over realizations only."""
+
+Variables = dict[str, xr.Variable]
+
+
+def build(
+    setup: Setup,
+    records: Sequence[Record],
+    baseline: Record,
+    history: History,
+    about: Mapping[str, Any],
+    discretisation: Discretisation | None = None,
+) -> xr.Dataset:
+    """Assemble the dataset.
+
+    Parameters
+    ----------
+    setup
+        What the realizations share.
+    records
+        Realizations 0, 1, 2, ..., without a gap.
+    baseline
+        The deterministic run.
+    history
+        The estimates at the checkpoints of these realizations.
+    about
+        Global attributes.
+    discretisation
+        What half the cell changes, where that is known.
+    """
+    variables = _per_realization(records) | _deterministic(baseline) | _influence(records) | _convergence(history)
+    if discretisation is not None:
+        variables |= _discretisation(discretisation)
+    attributes = {"Conventions": "CF-1.11", "n_particles": setup.n_particles, "toe_x": setup.toe_x}
+    return xr.Dataset(variables, _coordinates(setup, records, history), attributes | dict(about))
+
+
+def write(dataset: xr.Dataset, path: Path) -> None:
+    """Write the dataset so that a reader finds the old file or the whole new one.
+
+    Raises
+    ------
+    OSError
+        When the directory cannot be written or the disk is full.
+    """
+    temporary = temporary_name(path)
+    try:
+        dataset.to_netcdf(
+            temporary, engine="netcdf4", format="NETCDF4", unlimited_dims=["realization"], encoding=_encoding(dataset)
+        )
+        publish(temporary, path)
+    except RuntimeError as error:  # what netCDF4 makes of a full disk
+        raise OSError(str(error)) from error
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _coordinates(setup: Setup, records: Sequence[Record], history: History) -> Variables:
+    given = setup.coordinates
+    return {
+        "realization": _variable("realization", [r.realization for r in records], "1", "realization", "i4"),
+        "time": _variable("time", given["time"], "s", "time since release of strength"),
+        "x": _variable("x", given["x"], "m", "horizontal place"),
+        "particle_x": _variable("particle", given["particle_x"], "m", "initial horizontal place of the particle"),
+        "particle_z": _variable("particle", given["particle_z"], "m", "initial elevation of the particle"),
+        "checkpoint": _variable("checkpoint", history.realizations, "1", "realizations looked at", "i4"),
+    }
+
+
+def _per_realization(records: Sequence[Record]) -> Variables:
+    variables = {name: _stack(name, records) for name, quantity in QUANTITIES.items() if name not in TOTALS}
+    variables["status"] = _status(records)
+    reason = np.array([record.reason for record in records], dtype=object)
+    variables["reason"] = xr.Variable("realization", reason, {"long_name": "why a realization failed or is flagged"})
+    return variables
+
+
+def _stack(name: str, records: Sequence[Record]) -> xr.Variable:
+    quantity = QUANTITIES[name]
+    values = np.stack([np.asarray(record.values[name], dtype=quantity.dtype) for record in records])
+    variable = _variable(("realization", *quantity.dims), values, quantity.units, quantity.long_name, quantity.dtype)
+    variable.attrs["ancillary_variables"] = "status"
+    return variable
+
+
+def _status(records: Sequence[Record]) -> xr.Variable:
+    flags = {
+        "long_name": "how the realization ended",
+        "standard_name": "status_flag",
+        "flag_values": np.array([int(status) for status in Status], dtype="i1"),
+        "flag_meanings": " ".join(status.name for status in Status),
+    }
+    return xr.Variable("realization", np.array([int(r.status) for r in records], dtype="i1"), flags)
+
+
+def _influence(records: Sequence[Record]) -> Variables:
+    finished = [np.asarray(record.values["displaced"]) for record in records if record.status not in FAILED]
+    n_particles = np.shape(records[0].values["displaced"])
+    share = np.sum(finished, axis=0, dtype="i8") / len(finished) if finished else np.full(n_particles, np.nan)
+    name = "share of the realizations without failure in which the particle is displaced farther than slide.displaced"
+    return {"influence_probability": _variable("particle", share, "1", name)}
+
+
+def _deterministic(baseline: Record) -> Variables:
+    runout, final = QUANTITIES["runout"], QUANTITIES["final_runout"]
+    with_mean = "of the deterministic run with mean strengths"
+    return {
+        "deterministic_runout": _variable("time", baseline.values["runout"], "m", f"{runout.long_name}, {with_mean}"),
+        "deterministic_final_runout": _variable(
+            (), baseline.values["final_runout"], "m", f"{final.long_name}, {with_mean}"
+        ),
+        "deterministic_status": xr.Variable((), np.int8(baseline.status), _status([baseline]).attrs),
+    }
+
+
+def _convergence(history: History) -> Variables:
+    bounds = ("checkpoint", "bound")
+    return {
+        "n": _variable("checkpoint", history.n, "1", "usable realizations behind the estimates", "i4"),
+        "mean": _variable("checkpoint", history.mean, "m", "mean of final_runout given sliding"),
+        "mean_ci": _variable(bounds, history.mean_ci, "m", "confidence interval of mean (Student t)"),
+        "variance": _variable("checkpoint", history.variance, "m2", "variance of final_runout given sliding"),
+        "variance_ci": _variable(bounds, history.variance_ci, "m2", "confidence interval of variance (Bonett)"),
+        "exceedance": _variable("checkpoint", history.exceedance, "1", "share beyond the deterministic final run-out"),
+        "exceedance_ci": _variable(bounds, history.exceedance_ci, "1", "confidence interval of exceedance (Wilson)"),
+        "predicted_n": _variable("checkpoint", history.predicted_n, "1", "realizations expected to satisfy the rule"),
+    }
+
+
+def _discretisation(found: Discretisation) -> Variables:
+    change = "final_runout with half the cell minus that with the cell"
+    error = _variable((), found.error, "m", "estimated size of the discretisation error of mean")
+    error.attrs |= {"cell": found.cell, "half_cell": found.cell / 2, "pairs": found.interval.n, "comment": METHOD}
+    return {
+        "pair": _variable("pair", range(len(found.differences)), "1", "realization repeated with half the cell", "i4"),
+        "discretisation_error": error,
+        "discretisation_change": _variable((), found.interval.estimate, "m", f"mean over pairs of {change}"),
+        "discretisation_change_ci": _variable(
+            "bound", found.interval[1:3], "m", "confidence interval of discretisation_change (Student t)"
+        ),
+        "paired_difference": _variable("pair", found.differences, "m", change),
+        "deterministic_paired_difference": _variable((), found.deterministic, "m", f"{change}, with mean strengths"),
+    }
+
+
+def _variable(
+    dims: str | tuple[str, ...],
+    values: Any,
+    units: str,
+    long_name: str,
+    dtype: str = "f8",
+) -> xr.Variable:
+    return xr.Variable(dims, np.asarray(values, dtype=dtype), {"units": units, "long_name": long_name})
+
+
+def _encoding(dataset: xr.Dataset) -> dict[str, dict[str, Any]]:
+    encoding: dict[str, dict[str, Any]] = {name: {"_FillValue": None} for name in map(str, dataset.coords)}
+    for name, variable in dataset.data_vars.items():
+        if variable.dims and variable.dtype.kind in "fiu":
+            chunks = [min(CHUNK, size) if dim == "realization" else size for dim, size in variable.sizes.items()]
+            encoding[str(name)] = {"zlib": True, "complevel": 4, "shuffle": True, "chunksizes": chunks}
+    return encoding

@@ -1,0 +1,136 @@
+"""A results directory in the hands of rank 0: opened for work, and concluded."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeAlias
+
+import xarray as xr
+
+from campaign.errors import RefusalError
+from campaign.exit_codes import ExitCode
+from campaign.report.summary import summary
+from campaign.results import dataset
+from campaign.results.results import Results
+from campaign.running.level import Level
+from campaign.scene import Scene
+from campaign.seeds import BASELINE
+from campaign.simulation.contract import Setup
+from campaign.statistics import discretisation
+from campaign.statistics.discretisation import Discretisation
+from campaign.statistics.tally import Tally
+from campaign.storage import manifest
+from campaign.storage.layout import RESULTS
+from campaign.storage.lock import DirectoryLock
+from campaign.storage.provenance import attributes
+from campaign.terminal import say
+
+Draw: TypeAlias = Callable[[Path], Path]
+"""Makes the report of a results directory and returns its page."""
+
+
+class Site:
+    """The directory of a scene's campaign, locked for this process.
+
+    Raises
+    ------
+    RefusalError
+        When the directory cannot be written, is in use, or belongs to something else.
+    """
+
+    def __init__(self, scene: Scene, directory: Path, ranks: int, allow_drift: bool) -> None:
+        self.scene = scene
+        self.directory = directory
+        self.level = Level(scene, directory)
+        self._lock = DirectoryLock(directory)
+        try:
+            self._open(ranks, allow_drift)
+        except OSError as error:
+            raise RefusalError(f"{directory} cannot be written ({error}); give another --out, or make room.") from error
+
+    def _open(self, ranks: int, allow_drift: bool) -> None:
+        self.directory.mkdir(parents=True, exist_ok=True)
+        notes = [self._lock.acquire()]
+        try:
+            notes += manifest.begin(self.directory, self.scene, ranks, allow_drift)
+            notes += self.level.open()
+        except BaseException:
+            self.close()
+            raise
+        for note in filter(None, notes):
+            say(note)
+
+    def announce(self, ranks: int, tally: Tally) -> None:
+        """Say what is about to be done."""
+        earlier = f"; {tally.done} are finished already" if tally.done else ""
+        say(f"{self.scene.title}: at most {tally.maximum} realizations on {ranks} ranks, in {self.directory}{earlier}.")
+
+    def close(self) -> None:
+        """Give the directory free."""
+        self._lock.release()
+
+    def conclude(self, setup: Setup, tally: Tally, repeated: Tally | None, stopped: str, draw: Draw | None) -> ExitCode:
+        """Write the results, draw them, say how the campaign ended, and return its exit code.
+
+        Parameters
+        ----------
+        setup, tally
+            Of the campaign.
+        repeated
+            The account of its realizations with half the cell.
+        stopped
+            Why not all was done, "" if it was.
+        draw
+            Makes the report.
+        """
+        code, verdict = _end(tally, stopped)
+        found = None
+        if repeated is not None and repeated.size is not None:
+            found = discretisation.estimate(self.scene, tally, repeated)
+        say(f"\n{self.scene.title}: {verdict}")
+        try:
+            if tally.prefix > 0:
+                result = self._result(setup, tally, verdict, found)
+                say(summary(Results(result, self.scene)))
+                dataset.write(result, self.directory / RESULTS)
+            self.level.store.pack()
+            manifest.end(self.directory, code, verdict)
+        except OSError as error:
+            say(f"The results cannot be written ({error}). All records are kept: make room and repeat the command.")
+            return ExitCode.RESUMABLE
+        if tally.prefix > 0:
+            say(f"Results: {self.directory / RESULTS} (opens with xarray)")
+            if draw is not None:
+                _attempt(draw, self.directory)
+            say(f"One realization again, with all particles: campaign replay {self.directory} K")
+        if code is ExitCode.RESUMABLE:
+            say("Give the same command again to continue.")
+        return code
+
+    def _result(self, setup: Setup, tally: Tally, verdict: str, found: Discretisation | None) -> xr.Dataset:
+        store = self.level.store
+        records = [store.read(realization) for realization in range(tally.prefix)]
+        about = attributes(self.scene, manifest.read(self.directory), verdict)
+        return dataset.build(setup, records, store.read(BASELINE), tally.history(), about, found)
+
+
+def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:
+    if tally.too_many_failed:
+        failed, limit = tally.failed_in_prefix, 100 * tally.max_failed_fraction
+        return (
+            ExitCode.TOO_MANY_FAILED,
+            f"{failed} of {tally.prefix} realizations failed, more than the {limit:g} % of max_failed_fraction",
+        )
+    verdict = tally.history().verdict if tally.prefix else "no result yet"
+    if tally.size is None or stopped:
+        return ExitCode.RESUMABLE, f"stopped early ({stopped}); {verdict}"
+    if tally.history().converged_at is None:
+        return ExitCode.DONE, f"stopped at the maximum of {tally.maximum} realizations; {verdict}"
+    return ExitCode.DONE, verdict
+
+
+def _attempt(draw: Draw, directory: Path) -> None:
+    """Draw the report if that can be done; the results do not depend on it."""
+    try:
+        say(f"Report: {draw(directory)}")
+    except Exception as error:
+        say(f"The report could not be made ({error!r}); results.nc is safe. Try again: campaign report {directory}")

@@ -1,0 +1,83 @@
+"""Find every mistake in a scene at once: keys by themselves, then the rules across keys."""
+
+from collections.abc import Mapping
+from copy import deepcopy
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from campaign.scene.document import Document
+from campaign.scene.rules import field, geometry, numerics, slide, soil
+from campaign.scene.scene import flatten
+from campaign.scene.wording import explain, wrong_value
+
+Key = tuple[str, ...]
+
+# A cell too large breaks rules of the ground as well, and is to be read first.
+SECTIONS = (numerics, geometry, slide, soil, field)
+
+
+def mistakes(document: Document, model: type[BaseModel], example: Document) -> list[str]:
+    """Return a sentence for every mistake.
+
+    Parameters
+    ----------
+    document
+        The scene as written.
+    model
+        The model of the whole file.
+    example
+        A valid scene with every key that the model requires.
+    """
+    details = []
+    try:
+        model.model_validate(document.tables)
+    except ValidationError as error:
+        details = error.errors(include_url=False)
+    faulty = {tuple(part for part in error["loc"] if isinstance(part, str)) for error in details}
+    sound = _sound_values(document, model, faulty, example)
+    broken = (complaint for section in SECTIONS for complaint in section.RULES.broken(sound))
+    return [
+        *explain(details, document, model, example),
+        *_geometry_choice(document),
+        *(wrong_value(tuple(key.split(".")), complaint, document) for key, complaint in broken),
+    ]
+
+
+def _geometry_choice(document: Document) -> list[str]:
+    geometry = document.tables.get("geometry")
+    if not isinstance(geometry, dict):
+        return []
+    slope, surface = (document.place(("geometry", name)) for name in ("slope", "surface"))
+    if {"slope", "surface"} <= geometry.keys():
+        return [f"{slope} and {surface} contradict each other; remove one of them."]
+    if not {"slope", "surface"} & geometry.keys():
+        return [f'{slope} is not given; add it with its height, for instance height = "15 m", or a geometry.surface.']
+    return []
+
+
+def _sound_values(document: Document, model: type[BaseModel], faulty: set[Key], example: Document) -> dict[str, Any]:
+    """Return the SI values of all keys but the faulty ones, so that rules across keys can still speak.
+
+    Faulty keys are replaced by those of the example, which makes the whole valid, and then left out.
+    """
+    tables = deepcopy(document.tables)
+    for key in faulty:
+        _replace(key, tables, example.tables)
+    values = flatten(model.model_validate(tables).model_dump(mode="json"))
+    dotted = [".".join(key) for key in faulty]
+    return {name: value for name, value in values.items() if not any(_within(name, key) for key in dotted)}
+
+
+def _replace(key: Key, tables: dict[str, Any], example: Mapping[str, Any]) -> None:
+    *sections, name = key
+    for section in sections:
+        tables, example = tables[section], example.get(section, {})
+    if name in example:
+        tables[name] = deepcopy(example[name])
+    else:
+        tables.pop(name, None)
+
+
+def _within(name: str, key: str) -> bool:
+    return name == key or name.startswith(f"{key}.")

@@ -1,0 +1,55 @@
+"""The values a scene may take: quantities and numbers with their bounds, as annotated types for pydantic models."""
+
+from collections.abc import Callable
+from itertools import pairwise
+from math import radians
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, Field
+
+from campaign.scene.units import Angle, Area, Length, Pressure, Time
+
+
+def must(complaint: str, holds: Callable[[Any], bool]) -> AfterValidator:
+    """Refuse a value for which `holds` is false; the complaint follows "KEY is VALUE, but it must"."""
+
+    def check(value: Any) -> Any:
+        if not holds(value):
+            raise ValueError(f"it must {complaint}")
+        return value
+
+    return AfterValidator(check)
+
+
+def _goes_forward(points: tuple[tuple[float, float], ...]) -> bool:
+    return all(left <= right for (left, _), (right, _) in pairwise(points))
+
+
+POSITIVE = must("be greater than zero", lambda value: value > 0.0)
+NOT_NEGATIVE = must("not be negative", lambda value: value >= 0.0)
+
+PositiveLength = Annotated[Length, POSITIVE]
+PositiveArea = Annotated[Area, POSITIVE]
+PositivePressure = Annotated[Pressure, POSITIVE]
+PositiveTime = Annotated[Time, POSITIVE]
+AcuteAngle = Annotated[Angle, must("lie between 0 deg and 90 deg", lambda angle: 0.0 < angle < radians(90.0))]
+RightAngle = Annotated[Angle, must("lie between -90 deg and 90 deg", lambda angle: abs(angle) <= radians(90.0))]
+
+PositiveNumber = Annotated[float, POSITIVE]
+PositiveCount = Annotated[int, must("be 1 or more", lambda count: count >= 1)]
+Fraction = Annotated[float, must("lie between 0 and 1", lambda value: 0.0 <= value <= 1.0)]
+OpenFraction = Annotated[
+    float, must("lie between 0 and 1, both excluded; 95 % is written 0.95", lambda value: 0.0 < value < 1.0)
+]
+
+# Strict validation would refuse the lists that TOML gives.
+Point = Annotated[tuple[Length, Length], Field(strict=False)]
+Profile = Annotated[
+    tuple[Point, ...],
+    Field(strict=False),
+    must("have two points or more", lambda points: len(points) >= 2),
+    must("start at x = 0", lambda points: points[0][0] == 0.0),
+    must("go from left to right; no x may be less than the one before", _goes_forward),
+    must("stay above the base, which is at elevation 0", lambda points: min(y for _, y in points) >= 0.0),
+    must("end lower than it starts, because the slide goes to the right; mirror it", lambda p: p[-1][1] < p[0][1]),
+]

@@ -1,0 +1,169 @@
+"""A scene as it was written: the TOML text, the overrides, and where each key stands."""
+
+import json
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from campaign.errors import SceneError
+
+Location = tuple[str | int, ...]
+
+SCENES = files("campaign") / "scenes"
+HEADER = re.compile(r"""\s*\[\s*([\w.\-\s]+?)\s*\]\s*(?:#.*)?""")
+ASSIGNMENT = re.compile(r"""\s*([\w.\-"']+(?:\s*\.\s*[\w\-"']+)*)\s*=""")
+BARE_QUANTITY = re.compile(r"=\s*[+-]?[\d.]+(?:[eE][+-]?\d+)?\s*[A-Za-z°%]")
+
+
+@dataclass(frozen=True)
+class Document:
+    """The tables of a scene file with the overrides applied, and enough of the text to point at a key."""
+
+    name: str
+    file: str
+    text: str
+    tables: dict[str, Any]
+    overrides: tuple[str, ...] = ()
+    lines: Mapping[Location, int] = field(default_factory=dict)
+
+    def value(self, location: Location) -> Any:
+        """Return the value as written; raises LookupError if it is not."""
+        value: Any = self.tables
+        for part in location:
+            value = value[part]
+        return value
+
+    def place(self, location: Location) -> str:
+        """Name a key and where it was written, for the start of a message."""
+        keys = tuple(part for part in location if isinstance(part, str))
+        points = [part + 1 for part in location if isinstance(part, int)]
+        point = f", point {points[0]}" if points else ""
+        for override in reversed(self.overrides):
+            path = override_key(override)
+            created = path[: len(keys)] == keys and keys not in self.lines
+            if created or path == keys[: len(path)]:
+                return f"--set {'.'.join(path)}{point}"
+        known = (self.lines[keys[:n]] for n in range(len(keys), 0, -1) if keys[:n] in self.lines)
+        line = next(known, None)
+        return f"{'.'.join(keys)} ({self.file}{f', line {line}' if line else ''}{point})"
+
+
+def builtin_scenes() -> dict[str, str]:
+    """Return the title of each built-in scene by name."""
+    texts = {Path(entry.name).stem: entry.read_text("utf-8") for entry in SCENES.iterdir() if entry.is_file()}
+    return {name: tomllib.loads(text)["title"] for name, text in sorted(texts.items())}
+
+
+def read_document(source: str | Path, overrides: Iterable[str] = ()) -> Document:
+    """Read a scene file, or a built-in scene by its name, and apply the overrides.
+
+    Raises
+    ------
+    SceneError
+        If there is no such scene, or the file is not TOML, or an override cannot be read.
+    """
+    file, text = _read(source)
+    return document_of(text, overrides, file)
+
+
+def document_of(text: str, overrides: Iterable[str] = (), file: str = "scene.toml") -> Document:
+    """Apply the overrides to the text of a scene; `file` is what messages call it.
+
+    Raises
+    ------
+    SceneError
+        If it is not TOML, or an override cannot be read.
+    """
+    tables = _parse(text, file)
+    overrides = tuple(overrides)
+    if messages := [message for override in overrides if (message := _apply(override, tables))]:
+        raise SceneError(messages)
+    return Document(Path(file).stem, Path(file).name, text, tables, overrides, key_lines(text))
+
+
+def key_lines(text: str) -> dict[Location, int]:
+    """Map each key and section of a TOML text to its line, counted from 1."""
+    section: tuple[str, ...] = ()
+    lines: dict[Location, int] = {}
+    for number, line in enumerate(text.split("\n"), start=1):
+        if header := HEADER.fullmatch(line):
+            section = path = _split(header[1])
+        elif assignment := ASSIGNMENT.match(line):
+            path = section + _split(assignment[1])
+        else:
+            continue
+        for depth in range(1, len(path) + 1):
+            lines.setdefault(path[:depth], number)
+    return lines
+
+
+def override_key(override: str) -> tuple[str, ...]:
+    """Return the key of an override KEY=VALUE as its parts."""
+    return _split(override.partition("=")[0])
+
+
+def shown(value: Any) -> str:
+    """Write a value as the scene file would, shortened if it is long."""
+    text = json.dumps(value, ensure_ascii=False, default=str)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _read(source: str | Path) -> tuple[str, str]:
+    builtin = SCENES / f"{source}.toml"
+    path = Path(source)
+    try:
+        if len(path.parts) == 1 and builtin.is_file():
+            return builtin.name, builtin.read_text("utf-8")
+        # Editors on Windows put a byte order mark in front.
+        return str(path), path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        raise SceneError([_unknown_scene(str(source))]) from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise SceneError([f'The scene "{source}" cannot be read: {error}. Give a text file in UTF-8.']) from error
+
+
+def _unknown_scene(source: str) -> str:
+    names = list(builtin_scenes())
+    near = get_close_matches(source, [*names, *(path.name for path in Path().glob("*.toml"))], n=1, cutoff=0.75)
+    guess = f' Did you mean "{near[0]}"?' if near else ""
+    return f'"{source}" is neither a file nor a built-in scene; built in are {", ".join(names)}.{guess}'
+
+
+def _parse(text: str, file: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        found = re.search(r"line (\d+)", str(error))
+        line = text.split("\n")[int(found[1]) - 1].strip() if found else ""
+        written = f" That line reads: {line} ." if line else ""
+        remedy = ' Put a value with a unit in quotes, for instance "20 kPa".' if BARE_QUANTITY.search(line) else ""
+        raise SceneError([f"{Path(file).name} is not valid TOML: {error}.{written}{remedy}"]) from error
+
+
+def _apply(override: str, tables: dict[str, Any]) -> str | None:
+    *sections, last = path = override_key(override)
+    if "=" not in override or not all(path):
+        return f'--set {override} has no key and value; write KEY=VALUE, for instance --set numerics.cell="0.5 m".'
+    for depth, section in enumerate(sections, start=1):
+        tables = tables.setdefault(section, {})
+        if not isinstance(tables, dict):
+            return f"--set {'.'.join(path)}: {'.'.join(path[:depth])} is a value, not a section; set it itself."
+    tables[last] = _override_value(override.partition("=")[2].strip())
+    return None
+
+
+def _override_value(text: str) -> Any:
+    # A shell strips the quotes of --set numerics.cell="0.5 m", so what is not TOML is text.
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return text
+
+
+def _split(dotted: str) -> tuple[str, ...]:
+    return tuple(part.strip().strip("\"'") for part in dotted.split("."))

@@ -1,0 +1,44 @@
+"""A valid scene, and the identity that decides what its realizations are."""
+
+import json
+from collections.abc import Mapping
+from hashlib import sha256
+from typing import Any
+
+from campaign.scene.sections import SceneFile
+
+
+class Scene(SceneFile):
+    """A valid scene, with the name and the text it came from; every number in SI units."""
+
+    name: str
+    text: str
+    overrides: tuple[str, ...] = ()
+
+    def identity(self) -> dict[str, Any]:
+        """Return, by dotted key, every SI value that decides what realization k is; ready for JSON."""
+        sections = self.model_dump(mode="json", include={"geometry", "soil", "field", "numerics", "slide"})
+        values = flatten(sections) | {"campaign.seed": self.campaign.seed}
+        return {key: value for key, value in values.items() if value is not None}
+
+    def digest(self) -> str:
+        """Return the SHA-256 of the identity."""
+        return sha256(json.dumps(self.identity(), sort_keys=True).encode()).hexdigest()
+
+
+def flatten(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Return the values of nested tables by dotted key."""
+    values: dict[str, Any] = {}
+    for name, value in tables.items():
+        key = prefix + name
+        values |= flatten(value, f"{key}.") if isinstance(value, Mapping) else {key: value}
+    return values
+
+
+def differences(here: Mapping[str, Any], there: Mapping[str, Any]) -> list[str]:
+    """Say, key by key, how two identities differ; `there` is the one in the results directory."""
+    return [
+        f"{key} is {here.get(key, 'absent')} here but {there.get(key, 'absent')} in the results directory"
+        for key in sorted(here.keys() | there.keys())
+        if here.get(key) != there.get(key)
+    ]

@@ -1,0 +1,154 @@
+"""The sections of a scene, frozen and checked key by key; every number in SI units."""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict
+
+from campaign.scene.constraints import (
+    NOT_NEGATIVE,
+    POSITIVE,
+    AcuteAngle,
+    Fraction,
+    OpenFraction,
+    PositiveArea,
+    PositiveCount,
+    PositiveLength,
+    PositiveNumber,
+    PositivePressure,
+    PositiveTime,
+    Profile,
+    RightAngle,
+    must,
+)
+from campaign.scene.units import Angle, Pressure, UnitWeight
+
+
+class Section(BaseModel):
+    """What all sections share: frozen, no unknown keys, no guessing of types, no infinities."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+
+
+class Slope(Section):
+    """A straight slope between two level grounds, on a foundation; lengths in m, angle in rad."""
+
+    height: PositiveLength
+    angle: AcuteAngle
+    crest: PositiveLength
+    plain: PositiveLength
+    foundation: PositiveLength
+
+
+class Geometry(Section):
+    """The ground: either a slope, or a surface as points (x, elevation) in m above the fixed base."""
+
+    slope: Slope | None = None
+    surface: Profile | None = None
+
+
+class Cohesion(Section):
+    """Lognormal peak cohesion, and the deterministic residual one; in Pa."""
+
+    mean: PositivePressure
+    cov: PositiveNumber
+    residual: Annotated[Pressure, NOT_NEGATIVE]
+
+
+class FrictionAngle(Section):
+    """Lognormal peak friction angle, and the deterministic residual one; in rad."""
+
+    mean: AcuteAngle
+    cov: PositiveNumber
+    residual: Annotated[Angle, NOT_NEGATIVE]
+
+
+class Softening(Section):
+    """How strength falls from peak to residual with plastic strain."""
+
+    law: Literal["exponential", "linear", "none"]
+    rate: PositiveNumber | None = None
+    reference_cell: PositiveLength | None = None
+    internal_length: PositiveLength | None = None
+
+    def rate_at(self, cell: float) -> float:
+        """Return the softening rate for cells of `cell` m: local softening needs it in proportion to the cell."""
+        if self.law == "none" or self.rate is None:
+            return 0.0
+        return self.rate if self.reference_cell is None else self.rate * cell / self.reference_cell
+
+
+class Soil(Section):
+    """Unit weight in N/m3, Young's modulus in Pa, dilation angle in rad, and strength."""
+
+    unit_weight: Annotated[UnitWeight, POSITIVE]
+    young_modulus: PositivePressure
+    poisson_ratio: Annotated[float, must("be at least 0 and below 0.5", lambda ratio: 0.0 <= ratio < 0.5)]
+    dilation_angle: Annotated[Angle, NOT_NEGATIVE] = 0.0
+    cohesion: Cohesion
+    friction_angle: FrictionAngle
+    softening: Softening
+
+
+class RandomField(Section):
+    """The correlated fields of cohesion and friction angle; lengths in m, `angle` of the horizontal axis in rad."""
+
+    correlation: Literal["exponential", "separable-exponential", "squared-exponential"]
+    horizontal: PositiveLength
+    vertical: PositiveLength
+    length_kind: Literal["autocorrelation-distance", "scale-of-fluctuation"]
+    cross_correlation: Annotated[float, must("lie between -1 and 1, both excluded", lambda rho: -1.0 < rho < 1.0)]
+    cross_correlation_of: Literal["gaussian", "lognormal"] = "gaussian"
+    angle: RightAngle = 0.0
+    sampler: Literal["auto", "kronecker", "circulant", "cholesky"] = "auto"
+    resolution: PositiveLength | None = None
+
+
+class Numerics(Section):
+    """Mesh, scheme, time step and duration; cell in m, times in s."""
+
+    cell: PositiveLength
+    particles_per_cell: Annotated[int, must("be 1, 4, 9 or 16", lambda number: number in (1, 4, 9, 16))] = 4
+    basis: Literal["gimp", "linear", "bspline"] = "gimp"
+    stress_update: Literal["musl", "usl", "usf"] = "musl"
+    courant: Annotated[float, must("be above 0 and at most 1.5, for instance 0.6", lambda c: 0.0 < c <= 1.5)] = 0.6
+    flip: Fraction = 1.0
+    locking: Literal["none", "cell-average"] = "cell-average"
+    gravity: Literal["release", "ramp"] = "release"
+    ramp_time: PositiveTime = 2.0
+    end_time: PositiveTime
+    output_interval: PositiveTime = 0.1
+
+
+class Slide(Section):
+    """From which displacement since release on (m) ground belongs to the slide and a slope has failed; its front."""
+
+    displaced: PositiveLength = 0.1
+    failed: PositiveLength = 1.0
+    front_area: PositiveArea = 0.25
+
+
+class Campaign(Section):
+    """How many realizations, from which seed, and when they are enough."""
+
+    realizations: PositiveCount = 1000
+    seed: Annotated[int, NOT_NEGATIVE] = 0
+    mean_tolerance: OpenFraction = 0.01
+    variance_tolerance: OpenFraction = 0.25
+    confidence: OpenFraction = 0.95
+    minimum: Annotated[int, must("be 10 or more, or no interval on a variance means much", lambda n: n >= 10)] = 100
+    block: PositiveCount = 25
+    max_failed_fraction: Fraction = 0.1
+    discretisation_pairs: Annotated[int, NOT_NEGATIVE] = 4
+    realization_timeout: PositiveTime = 3600.0
+
+
+class SceneFile(Section):
+    """What a scene file holds."""
+
+    title: str
+    geometry: Geometry
+    soil: Soil
+    field: RandomField
+    numerics: Numerics
+    slide: Slide = Slide()
+    campaign: Campaign

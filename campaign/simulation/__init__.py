@@ -1,0 +1,1 @@
+"""One realization: what all share, and one simulated."""

@@ -1,0 +1,80 @@
+"""The discretisation error of the mean run-out, from a few realizations repeated with half the cell.
+
+Realization k is the same ground on every mesh, so that the difference between its two run-outs is free of the scatter
+between realizations, and a few pairs tell what the whole campaign with half the cell would change. The estimate is that
+plain difference. Richardson's extrapolation would multiply it by 2^p / (2^p - 1), but a run-out at two cells does not
+reveal the order p; at first order the error is twice the difference.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from campaign.record import USABLE
+from campaign.scene import Scene
+from campaign.scene.cost import HALF_CELL_COST
+from campaign.seeds import BASELINE
+from campaign.statistics.intervals import Interval, Sample, mean_interval
+from campaign.statistics.tally import Outcome, Tally
+
+METHOD = (
+    "plain difference between run-outs of the same random fields with half the cell and with the cell; no "
+    "extrapolation, because the order of convergence is not known (at first order the error is twice the difference)"
+)
+
+
+class Discretisation(NamedTuple):
+    """What halving the cell changes.
+
+    Attributes
+    ----------
+    cell : float
+        The scene's own, in m.
+    differences : array (pairs,)
+        Final run-out of realization 0, 1, ... with half the cell minus that with the cell, in m; NaN unless both count.
+    deterministic : float
+        The same for the run with mean strengths.
+    confidence : float
+        Of `interval`.
+    """
+
+    cell: float
+    differences: Sample
+    deterministic: float
+    confidence: float
+
+    @property
+    def interval(self) -> Interval:
+        """Mean difference in m, with Student's t interval."""
+        known = self.differences[np.isfinite(self.differences)]
+        return mean_interval(known, self.confidence)
+
+    @property
+    def error(self) -> float:
+        """Estimated size in m of the discretisation error of the mean; NaN without a pair."""
+        return abs(self.interval.estimate)
+
+
+def with_half_cell(scene: Scene, pairs: int) -> Scene:
+    """Return the scene of realizations 0 to `pairs` - 1 with half the cell; whatever depends on the cell follows it."""
+    numerics = scene.numerics.model_copy(update={"cell": scene.numerics.cell / 2})
+    whole = {"realizations": pairs, "minimum": pairs + 1, "max_failed_fraction": 1.0}
+    timeout = {"realization_timeout": HALF_CELL_COST * scene.campaign.realization_timeout}
+    return scene.model_copy(
+        update={"numerics": numerics, "campaign": scene.campaign.model_copy(update=whole | timeout)}
+    )
+
+
+def estimate(scene: Scene, coarse: Tally, fine: Tally) -> Discretisation:
+    """Compare the realizations of `scene` with those repeated at half its cell."""
+    differences = np.array([_difference(k, coarse, fine) for k in range(fine.maximum)])
+    deterministic = _difference(BASELINE, coarse, fine)
+    return Discretisation(scene.numerics.cell, differences, deterministic, scene.campaign.confidence)
+
+
+def _difference(realization: int, coarse: Tally, fine: Tally) -> float:
+    return _runout(fine.outcomes[realization]) - _runout(coarse.outcomes[realization])
+
+
+def _runout(outcome: Outcome) -> float:
+    return outcome.final_runout if outcome.status in USABLE else np.nan

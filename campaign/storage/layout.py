@@ -1,0 +1,10 @@
+"""What the parts of a results directory are called."""
+
+MANIFEST = "manifest.json"
+RESULTS = "results.nc"
+LOCK = "lock"
+RECORDS = "records"
+PACKS = "packs"
+ATTEMPTS = "attempts"
+HALF_CELL = "half-cell"
+"""Holds the realizations repeated with half the cell, in the same layout."""

@@ -1,0 +1,90 @@
+"""Which program made a result: hashes of the sources, versions, machine."""
+
+import os
+import platform
+import socket
+import subprocess
+from collections.abc import Mapping
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from campaign.scene import Scene
+from campaign.storage.source_hash import package_hash, realization_hash
+
+PACKAGE = Path(__file__).parents[1]
+
+LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "netCDF4", "xarray", "mpi4py")
+
+
+def source_hashes() -> dict[str, str]:
+    """Return the SHA-256 of what decides a realization, and of each package."""
+    return {
+        "realization_sha256": realization_hash(),
+        **{f"{package}_sha256": package_hash(package) for package in ("solver", "campaign")},
+    }
+
+
+def versions() -> dict[str, str]:
+    """Return the versions of Python and of the libraries that take part."""
+    return {"python": platform.python_version()} | {name: _version(name) for name in LIBRARIES}
+
+
+def machine() -> dict[str, str]:
+    """Return where this process runs; none of it may influence a result."""
+    return {
+        "host": os.environ.get("SLURMD_NODENAME", socket.gethostname()),
+        "cpu": _cpu(),
+        "slurm_job": os.environ.get("SLURM_JOB_ID", ""),
+    }
+
+
+def git_describe() -> str:
+    """Return the state of the source tree if the packages run from a git checkout, else ""."""
+    command = ["git", "-C", str(PACKAGE), "describe", "--always", "--dirty"]
+    try:
+        result = subprocess.run(command, capture_output=True, text=True, timeout=10, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return ""
+    return result.stdout.strip() if result.returncode == 0 and (PACKAGE.parent / ".git").exists() else ""
+
+
+def attributes(scene: Scene, manifest: Mapping[str, Any], verdict: str) -> dict[str, str | int | float]:
+    """Return the dataset's global attributes about its making; `manifest` as kept in the results directory."""
+    starts = manifest["starts"]
+    rule = scene.campaign
+    return {
+        "title": scene.title,
+        "source": f"runout-campaign {_version('runout-campaign')}",
+        "history": "; ".join(f"{start['at']} on {start['ranks']} ranks of {start['host']}" for start in starts),
+        "seed": str(rule.seed),
+        "stopping_rule": (
+            f"half-width of the mean within {rule.mean_tolerance:g} and of the variance within "
+            f"{rule.variance_tolerance:g} of the estimate at {rule.confidence:g} confidence, at two checkpoints in a "
+            f"row; checkpoints at {rule.minimum} realizations and every {rule.block} after; at most {rule.realizations}"
+        ),
+        "verdict": verdict,
+        "scene": scene.text,
+        "scene_overrides": "\n".join(scene.overrides),
+        "scene_sha256": scene.digest(),
+        "solver_drift": str(len({start["realization_sha256"] for start in starts}) > 1).lower(),
+        **{name: starts[-1][name] for name in ("realization_sha256", "solver_sha256", "campaign_sha256", "git", "cpu")},
+        "slurm_jobs": " ".join(sorted({start["slurm_job"] for start in starts} - {""})),
+        **{f"{name}_version": number for name, number in starts[-1]["versions"].items()},
+    }
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return ""
+
+
+def _cpu() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+    except OSError:
+        return platform.processor()
+    names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return next(names, platform.processor())

@@ -1,0 +1,72 @@
+"""The in-situ state: elastic ground brought to rest under its own weight, the same for every realization."""
+
+import numpy as np
+
+from solver import observables
+from solver.constants import STANDARD_GRAVITY
+from solver.filling import fill_ground
+from solver.grid import Grid
+from solver.model import Model
+from solver.particles import Particles
+from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace
+from solver.surface import Surface
+from solver.timestep import stable_step
+
+LOCAL_DAMPING = 0.7  # share of the unbalanced force (Cundall); gone after release
+UNBALANCED = 1e-4  # of the weight: at rest
+STEPS_BETWEEN_CHECKS = 50
+MOST_CHECKS = 4000
+
+
+class NotSettledError(RuntimeError):
+    """The ground does not come to rest under its own weight."""
+
+
+def lay_geostatic_stress(particles: Particles, surface: Surface, unit_weight: float, poisson_ratio: float) -> None:
+    """Start from ``s_yy = -gamma depth``, ``s_xx = s_zz = nu / (1 - nu) s_yy``: exact under level ground."""
+    vertical = -unit_weight * np.maximum(surface.height_at(particles.x) - particles.y, 0.0)
+    horizontal = poisson_ratio / (1.0 - poisson_ratio) * vertical
+    particles.stress_yy[:] = vertical
+    particles.stress_xx[:] = horizontal
+    particles.stress_zz[:] = horizontal
+
+
+def unbalanced_share(grid: Grid, gravity: float) -> float:
+    """Return ``||f_int + m g|| / ||m g||`` over the nodes that may move."""
+    weight = grid.mass * gravity
+    force_x = grid.force[:, 0] * grid.free_x
+    force_y = (grid.force[:, 1] - weight) * grid.free_y
+    return float(np.sqrt((np.sum(force_x**2) + np.sum(force_y**2)) / np.sum(weight**2)))
+
+
+def in_situ_state(model: Model) -> Particles:
+    """Return the particles at rest under gravity, unyielding, with zero velocity.
+
+    Raises
+    ------
+    NotSettledError
+        If the unbalanced force does not fall below 1e-4 of the weight.
+    """
+    particles = fill_ground(model.surface, model.cell_size, model.particles_per_cell, model.density)
+    lay_geostatic_stress(particles, model.surface, model.unit_weight, model.poisson_ratio)
+    grid = model.allocate_grid()
+    work = allocate_workspace(particles.x.size)
+    scheme = Scheme(STRESS_UPDATES["musl"], 1.0, LOCAL_DAMPING, model.scheme.locking)
+    dt = stable_step(min(model.courant, 0.5), model.cell_size, model.wave_speed, 0.0)
+    unbalanced = np.inf
+    steps = 0
+    for _ in range(MOST_CHECKS):
+        steps += STEPS_BETWEEN_CHECKS
+        taken = advance(particles, grid, work, model.soil, scheme, STANDARD_GRAVITY, 0.0, dt, STEPS_BETWEEN_CHECKS)
+        if taken < STEPS_BETWEEN_CHECKS or not np.isfinite(observables.kinetic_energy(particles)):
+            break
+        unbalanced = unbalanced_share(grid, STANDARD_GRAVITY)
+        if unbalanced < UNBALANCED:
+            particles.velocity_x[:] = 0.0
+            particles.velocity_y[:] = 0.0
+            return particles
+    raise NotSettledError(
+        f"The ground did not come to rest under its own weight in {steps} elastic steps "
+        f"(unbalanced force {unbalanced:.1e} of the weight, {UNBALANCED:.0e} wanted); "
+        "check young_modulus, unit_weight and the size of the cells."
+    )
