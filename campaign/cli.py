@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from campaign.errors import RefusalError
+from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(given or ["run", DEFAULT_SCENE])
     try:
         code: ExitCode = options.command(options)
-    except RefusalError as refusal:
+    except CampaignError as refusal:
         print(refusal, file=sys.stderr)
         return ExitCode.REFUSED
     return code
@@ -45,17 +45,17 @@ def _pin_threads() -> None:
 
 
 def _run(options: argparse.Namespace) -> ExitCode:
-    from campaign.running.runner import run
+    from campaign.running.mpi import run_on_ranks
     from campaign.scene import load_scene
-    from campaign.simulation import realization
+    from campaign.simulation.ground import prepare
 
     def read_scene() -> "Scene":
         return load_scene(options.scene, _overrides(options))
 
-    return run(read_scene, options.out, realization, _draw, options.allow_drift)
+    return run_on_ranks(read_scene, options.out, prepare, _write_report, options.allow_drift)
 
 
-def _draw(directory: Path) -> Path:
+def _write_report(directory: Path) -> Path:
     from campaign.report.page import write_report
 
     return write_report(directory)
@@ -113,13 +113,9 @@ def _scenes(_options: argparse.Namespace) -> ExitCode:
 
 
 def _scene(options: argparse.Namespace) -> "Scene":
-    from campaign.errors import SceneError
     from campaign.scene import load_scene
 
-    try:
-        return load_scene(options.scene, _overrides(options))
-    except SceneError as error:
-        raise RefusalError(str(error)) from error
+    return load_scene(options.scene, _overrides(options))
 
 
 def _overrides(options: argparse.Namespace) -> list[str]:
@@ -128,8 +124,19 @@ def _overrides(options: argparse.Namespace) -> list[str]:
     return [*options.set, *(f"{key}={value}" for key, value in named.items() if value is not None)]
 
 
+class _Version(argparse.Action):
+    """Prints the versions, which takes half a second to find out, only where they are asked for."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from campaign.commands.version import version
+
+        print(version())
+        parser.exit()
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="campaign", description="How far will this slope run, and how sure are we?")
+    parser.add_argument("--version", action=_Version, nargs=0, help="versions of all that takes part in a result")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
     run = commands.add_parser("run", help="run a campaign, or continue it")

@@ -10,7 +10,8 @@ from campaign.record import Record
 from campaign.results.results import check_same
 from campaign.scene import kept_scene
 from campaign.seeds import BASELINE
-from campaign.simulation.realization import Array, Setup, build_sampler, draw_strengths, prepare, simulate, strengthen
+from campaign.simulation.ground import Ground, prepare
+from campaign.simulation.solver_model import Array
 from campaign.storage import manifest
 from campaign.storage.record_store import RecordStore, file_name
 from campaign.storage.vtkhdf import ParticleFile
@@ -48,27 +49,24 @@ def replay(directory: Path, realization: int) -> Path:
     RefusalError
         When there is no such realization, or when this version would compute another one.
     """
-    setup = prepare_again(directory, realization)
-    sampler = build_sampler(setup, directory)
+    ground = prepare_again(directory, realization)
     path = _new_file(directory, realization)
-    peak = strengthen(setup, *draw_strengths(setup, sampler, realization))
+    peak = ground.released(realization)
     fixed = {"peak_cohesion": peak.cohesion, "peak_friction_angle": peak.friction_angle}
     with ParticleFile(path, fixed) as file:
-        record = simulate(
-            setup, sampler, realization, lambda: False, lambda march: file.append(march.time, *state(march))
-        )
-    say(verdict(record, _recorded(directory, realization)))
+        record = ground.simulate(realization, observe=lambda march: file.append(march.time, *state(march)))
+    say(comparison(record, _recorded(directory, realization)))
     return path
 
 
-def prepare_again(directory: Path, realization: int) -> Setup:
+def prepare_again(directory: Path, realization: int) -> Ground:
     """Prepare the scene of a campaign as it was when realization k was computed."""
     if realization < BASELINE:
         raise RefusalError(f"There is no realization {realization}; give 0 or more, or {BASELINE} for mean strengths.")
     about = manifest.read(directory)
     scene = kept_scene(about["scene"], about["overrides"])
     check_same(scene, about["digest"])
-    return prepare(scene)
+    return prepare(scene, directory)
 
 
 def state(march: March) -> tuple[Array, dict[str, Array]]:
@@ -101,7 +99,7 @@ def mobilised_strength(particles: Particles, soil: Soil) -> tuple[Array, Array]:
     )
 
 
-def verdict(record: Record, kept: Record | None) -> str:
+def comparison(record: Record, kept: Record | None) -> str:
     """Say whether a realization is the one that was recorded."""
     name = "The deterministic run" if record.realization == BASELINE else f"Realization {record.realization}"
     runout = float(record.values["final_runout"])

@@ -8,6 +8,7 @@ Rezania and Mousavi Nezhad.
 from dataclasses import dataclass
 from math import pi, sqrt
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,9 @@ from campaign.fields.reference_grid import Mask, ReferenceGrid
 from campaign.fields.samplers import CirculantSampler, KroneckerSampler, Sampler
 from campaign.scene.sections import Cohesion, FrictionAngle, RandomField
 from campaign.seeds import BASELINE, Stream, generator
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 AUTOMATIC = "circulant"
 """Sampler for any correlation and angle, and the only one without a matrix factorisation, whose last bits depend on the
@@ -44,6 +48,21 @@ class Strengths:
     grid: ReferenceGrid
     cohesion: Array
     friction_angle: Array
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return the fields as an xarray dataset by elevation `y` and place `x` (m)."""
+        import xarray as xr
+
+        about = {"cohesion": ("Pa", "peak cohesion"), "friction_angle": ("rad", "peak friction angle")}
+        fields = {
+            name: (("y", "x"), getattr(self, name), {"units": units, "long_name": long_name})
+            for name, (units, long_name) in about.items()
+        }
+        places = {
+            "x": ("x", self.grid.x, {"units": "m", "long_name": "horizontal place"}),
+            "y": ("y", self.grid.y, {"units": "m", "long_name": "elevation"}),
+        }
+        return xr.Dataset(fields, places)
 
     def at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """Read cohesion [Pa] and friction angle [rad] at the initial places `x`, `y` [m] of particles.

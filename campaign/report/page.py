@@ -15,10 +15,10 @@ from campaign.report.error_budget import error_budget, modelling_choices
 from campaign.report.figures import distribution, ground, precision, slides
 from campaign.report.figures.section import Section, section_of
 from campaign.report.figures.style import Illustration, NotDrawableError, in_style
-from campaign.report.snapshots import Slide, see_again
+from campaign.report.snapshots import ReplayedSlide, replay
 from campaign.results.results import Results, check_same, read_results
 from campaign.seeds import BASELINE
-from campaign.simulation.realization import Setup, build_sampler, prepare
+from campaign.simulation.ground import Ground, prepare
 from campaign.storage.files import write_atomically
 
 PAGE = "report.html"
@@ -49,12 +49,12 @@ class Plan(NamedTuple):
     draw: Callable[[], Illustration]
 
 
-class Replay(NamedTuple):
+class Replays(NamedTuple):
     """The slides simulated again for the figures."""
 
-    setup: Setup
-    deterministic: Slide
-    ranked: dict[str, Slide]
+    ground: Ground
+    deterministic: ReplayedSlide
+    ranked: dict[str, ReplayedSlide]
 
 
 def write_report(directory: Path) -> Path:
@@ -76,7 +76,7 @@ def write_report(directory: Path) -> Path:
         When there are no results, or the report cannot be written.
     """
     results = read_results(directory)
-    replayed, remarks = _replay(results, directory)
+    replayed, remarks = _replayed(results, directory)
     page = directory / PAGE
     try:
         with in_style():
@@ -125,10 +125,10 @@ def _template() -> jinja2.Template:
     return environment.get_template("report.html.jinja")
 
 
-def _replay(results: Results, directory: Path) -> tuple[Replay | None, list[str]]:
+def _replayed(results: Results, directory: Path) -> tuple[Replays | None, list[str]]:
     """Simulate the slides to draw again; without them the page has fewer figures and a sentence."""
     try:
-        replayed = _see_again(results, directory)
+        replayed = _replays(results, directory)
     except RefusalError as refusal:
         return None, [str(refusal)]
     except Exception as error:
@@ -136,20 +136,19 @@ def _replay(results: Results, directory: Path) -> tuple[Replay | None, list[str]
     return replayed, _differences(results, replayed)
 
 
-def _see_again(results: Results, directory: Path) -> Replay:
+def _replays(results: Results, directory: Path) -> Replays:
     check_same(results.scene, results.data.attrs["scene_sha256"])
-    setup = prepare(results.scene)
-    sampler = build_sampler(setup, directory)
-    seen: dict[int, Slide] = {}
+    ground = prepare(results.scene, directory)
+    seen: dict[int, ReplayedSlide] = {}
     for rank in RANKS.values() if results.usable_runouts.size else ():
         realization = results.ranked(rank)
         if realization not in seen:
-            seen[realization] = see_again(setup, sampler, realization)
+            seen[realization] = replay(ground, realization)
     ranked = {called: seen[results.ranked(rank)] for called, rank in RANKS.items()} if seen else {}
-    return Replay(setup, see_again(setup, sampler, BASELINE, TIMES), ranked)
+    return Replays(ground, replay(ground, BASELINE, TIMES), ranked)
 
 
-def _differences(results: Results, replayed: Replay) -> list[str]:
+def _differences(results: Results, replayed: Replays) -> list[str]:
     drawn = {slide.realization: slide for slide in (replayed.deterministic, *replayed.ranked.values())}
     different = [
         "the deterministic run" if realization == BASELINE else f"realization {realization}"
@@ -159,12 +158,12 @@ def _differences(results: Results, replayed: Replay) -> list[str]:
     if not different:
         return []
     return [
-        f"Drawn again, {', '.join(different)} did not come out exactly as recorded: the solver, a library or the "
+        f"Replayed, {', '.join(different)} did not come out exactly as recorded: the solver, a library or the "
         "kind of processor has changed since the campaign ran."
     ]
 
 
-def _plans(results: Results, replayed: Replay | None) -> list[Plan]:
+def _plans(results: Results, replayed: Replays | None) -> list[Plan]:
     section = section_of(results.scene, np.append(results.runouts, results.deterministic))
     return [
         Plan("curves", "Run-out over time", lambda: distribution.curves(results)),
@@ -178,27 +177,27 @@ def _plans(results: Results, replayed: Replay | None) -> list[Plan]:
     ]
 
 
-def _needed(replayed: Replay | None) -> Replay:
+def _needed(replayed: Replays | None) -> Replays:
     if replayed is None:
         raise NotDrawableError("The slides could not be simulated again; the reason is among the doubts.")
     return replayed
 
 
-def _ranked(replayed: Replay) -> dict[str, Slide]:
+def _ranked(replayed: Replays) -> dict[str, ReplayedSlide]:
     if not replayed.ranked:
         raise NotDrawableError("No realization slid, so there is none to show.")
     return replayed.ranked
 
 
-def _configurations(section: Section, replayed: Replay) -> Illustration:
+def _configurations(section: Section, replayed: Replays) -> Illustration:
     return slides.configurations(section, replayed.deterministic)
 
 
-def _strengths(section: Section, replayed: Replay) -> Illustration:
-    return slides.strengths(section, replayed.setup, _ranked(replayed)["median"])
+def _strengths(section: Section, replayed: Replays) -> Illustration:
+    return slides.strengths(section, replayed.ground, _ranked(replayed)["median"])
 
 
-def _outcomes(section: Section, replayed: Replay) -> Illustration:
+def _outcomes(section: Section, replayed: Replays) -> Illustration:
     called = {slide.realization: rank for rank, slide in _ranked(replayed).items()}
     return slides.outcomes(section, {rank: replayed.ranked[rank] for rank in RANKS if rank in called.values()})
 

@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.fields.strengths import StrengthSampler
 from campaign.record import Record
-from campaign.simulation.realization import Array, Setup, draw_strengths, simulate, strengthen
+from campaign.simulation.ground import Ground
+from campaign.simulation.solver_model import Array
 from solver.march import March
 from solver.observables import displacement, runout
 
@@ -18,15 +18,15 @@ class Snapshot(NamedTuple):
 
     time: float  # s since release
     x: Array  # (n,) m
-    z: Array  # (n,) m
+    y: Array  # (n,) m
     displacement: Array  # (n,) m since release
     plastic_strain: Array  # (n,)
     runout: float  # m
 
 
 @dataclass(frozen=True)
-class Slide:
-    """One realization seen again.
+class ReplayedSlide:
+    """One realization, simulated again.
 
     Parameters
     ----------
@@ -53,9 +53,9 @@ class Slide:
         return self.snapshots[-1]
 
 
-def see_again(setup: Setup, sampler: StrengthSampler, realization: int, times: Sequence[float] = ()) -> Slide:
+def replay(ground: Ground, realization: int, times: Sequence[float] = ()) -> ReplayedSlide:
     """Simulate a realization again and take snapshots at the output times nearest to `times` (s), and at the end."""
-    outputs = setup.coordinates["time"]
+    outputs = ground.coordinates["time"]
     wanted = {float(outputs[np.argmin(np.abs(outputs - time))]) for time in times}
     snapshots: list[Snapshot] = []
 
@@ -64,9 +64,9 @@ def see_again(setup: Setup, sampler: StrengthSampler, realization: int, times: S
             snapshots.pop()
         snapshots.append(snapshot(march))
 
-    record = simulate(setup, sampler, realization, lambda: False, observe)
-    strength = strengthen(setup, *draw_strengths(setup, sampler, realization))
-    return Slide(record, strength.cohesion, strength.friction_angle, snapshots)
+    record = ground.simulate(realization, observe=observe)
+    strength = ground.released(realization)
+    return ReplayedSlide(record, strength.cohesion, strength.friction_angle, snapshots)
 
 
 def snapshot(march: March) -> Snapshot:

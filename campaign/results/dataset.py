@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from campaign.record import FAILED, QUANTITIES, Record, Status
-from campaign.simulation.contract import Setup
+from campaign.simulation.contract import PreparedGround
 from campaign.statistics.convergence import History
 from campaign.statistics.discretisation import METHOD, Discretisation
 from campaign.storage.files import publish, temporary_name
@@ -27,7 +27,7 @@ Variables = dict[str, xr.Variable]
 
 
 def build(
-    setup: Setup,
+    ground: PreparedGround,
     records: Sequence[Record],
     baseline: Record,
     history: History,
@@ -38,7 +38,7 @@ def build(
 
     Parameters
     ----------
-    setup
+    ground
         What the realizations share.
     records
         Realizations 0, 1, 2, ..., without a gap.
@@ -54,8 +54,8 @@ def build(
     variables = _per_realization(records) | _deterministic(baseline) | _influence(records) | _convergence(history)
     if discretisation is not None:
         variables |= _discretisation(discretisation)
-    attributes = {"Conventions": "CF-1.11", "n_particles": setup.n_particles, "toe_x": setup.toe_x}
-    return xr.Dataset(variables, _coordinates(setup, records, history), attributes | dict(about))
+    attributes = {"Conventions": "CF-1.11", "n_particles": ground.n_particles, "toe_x": ground.toe_x}
+    return xr.Dataset(variables, _coordinates(ground, records, history), attributes | dict(about))
 
 
 def write(dataset: xr.Dataset, path: Path) -> None:
@@ -78,14 +78,14 @@ def write(dataset: xr.Dataset, path: Path) -> None:
         temporary.unlink(missing_ok=True)
 
 
-def _coordinates(setup: Setup, records: Sequence[Record], history: History) -> Variables:
-    given = setup.coordinates
+def _coordinates(ground: PreparedGround, records: Sequence[Record], history: History) -> Variables:
+    given = ground.coordinates
     return {
         "realization": _variable("realization", [r.realization for r in records], "1", "realization", "i4"),
         "time": _variable("time", given["time"], "s", "time since release of strength"),
         "x": _variable("x", given["x"], "m", "horizontal place"),
         "particle_x": _variable("particle", given["particle_x"], "m", "initial horizontal place of the particle"),
-        "particle_z": _variable("particle", given["particle_z"], "m", "initial elevation of the particle"),
+        "particle_y": _variable("particle", given["particle_y"], "m", "initial elevation of the particle"),
         "checkpoint": _variable("checkpoint", history.realizations, "1", "realizations looked at", "i4"),
     }
 

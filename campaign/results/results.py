@@ -109,6 +109,21 @@ class Results:
         return int(self.data["realization"].values[order[round(share * (order.size - 1))]])
 
 
+def open_results(directory: str | Path) -> xr.Dataset:
+    """Return the dataset of the campaign in `directory`, in memory; the file may be replaced meanwhile.
+
+    Raises
+    ------
+    RefusalError
+        When there is none.
+    """
+    path = Path(directory) / RESULTS
+    if not path.exists():
+        raise RefusalError(f"{directory} holds no {RESULTS}; give the directory of a campaign that has results.")
+    with xr.open_dataset(path, decode_timedelta=False) as opened:
+        return opened.load()
+
+
 def read_results(directory: Path) -> Results:
     """Read the results of the campaign in `directory`.
 
@@ -117,11 +132,7 @@ def read_results(directory: Path) -> Results:
     RefusalError
         When there are none, or when this version cannot read the scene that made them.
     """
-    path = directory / RESULTS
-    if not path.exists():
-        raise RefusalError(f"{directory} holds no {RESULTS}; give the directory of a campaign that has results.")
-    with xr.open_dataset(path, decode_timedelta=False) as opened:
-        data = opened.load()
+    data = open_results(directory)
     overrides = filter(None, str(data.attrs["scene_overrides"]).split("\n"))
     return Results(data, kept_scene(str(data.attrs["scene"]), overrides))
 

@@ -1,6 +1,7 @@
 """A results directory in the hands of rank 0: opened for work, and concluded."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeAlias
 
@@ -14,7 +15,7 @@ from campaign.results.results import Results
 from campaign.running.level import Level
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
-from campaign.simulation.contract import Setup
+from campaign.simulation.contract import PreparedGround
 from campaign.statistics import discretisation
 from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.tally import Tally
@@ -24,34 +25,44 @@ from campaign.storage.lock import DirectoryLock
 from campaign.storage.provenance import attributes
 from campaign.terminal import say
 
-Draw: TypeAlias = Callable[[Path], Path]
+WriteReport: TypeAlias = Callable[[Path], Path]
 """Makes the report of a results directory and returns its page."""
 
 
-class Site:
-    """The directory of a scene's campaign, locked for this process.
+@contextmanager
+def opened(scene: Scene, path: Path, ranks: int, allow_drift: bool = False) -> Iterator["CampaignDirectory"]:
+    """Open a results directory for a campaign of `scene`, and give it free afterwards.
 
     Raises
     ------
     RefusalError
         When the directory cannot be written, is in use, or belongs to something else.
     """
+    directory = CampaignDirectory(scene, path, ranks, allow_drift)
+    try:
+        yield directory
+    finally:
+        directory.close()
 
-    def __init__(self, scene: Scene, directory: Path, ranks: int, allow_drift: bool) -> None:
+
+class CampaignDirectory:
+    """The directory of a scene's campaign, locked for this process."""
+
+    def __init__(self, scene: Scene, path: Path, ranks: int, allow_drift: bool) -> None:
         self.scene = scene
-        self.directory = directory
-        self.level = Level(scene, directory)
-        self._lock = DirectoryLock(directory)
+        self.path = path
+        self.level = Level(scene, path)
+        self._lock = DirectoryLock(path)
         try:
             self._open(ranks, allow_drift)
         except OSError as error:
-            raise RefusalError(f"{directory} cannot be written ({error}); give another --out, or make room.") from error
+            raise RefusalError(f"{path} cannot be written ({error}); give another --out, or make room.") from error
 
     def _open(self, ranks: int, allow_drift: bool) -> None:
-        self.directory.mkdir(parents=True, exist_ok=True)
+        self.path.mkdir(parents=True, exist_ok=True)
         notes = [self._lock.acquire()]
         try:
-            notes += manifest.begin(self.directory, self.scene, ranks, allow_drift)
+            notes += manifest.begin(self.path, self.scene, ranks, allow_drift)
             notes += self.level.open()
         except BaseException:
             self.close()
@@ -62,24 +73,31 @@ class Site:
     def announce(self, ranks: int, tally: Tally) -> None:
         """Say what is about to be done."""
         earlier = f"; {tally.done} are finished already" if tally.done else ""
-        say(f"{self.scene.title}: at most {tally.maximum} realizations on {ranks} ranks, in {self.directory}{earlier}.")
+        say(f"{self.scene.title}: at most {tally.maximum} realizations on {ranks} ranks, in {self.path}{earlier}.")
 
     def close(self) -> None:
         """Give the directory free."""
         self._lock.release()
 
-    def conclude(self, setup: Setup, tally: Tally, repeated: Tally | None, stopped: str, draw: Draw | None) -> ExitCode:
+    def conclude(
+        self,
+        ground: PreparedGround,
+        tally: Tally,
+        repeated: Tally | None,
+        stopped: str,
+        write_report: WriteReport | None,
+    ) -> ExitCode:
         """Write the results, draw them, say how the campaign ended, and return its exit code.
 
         Parameters
         ----------
-        setup, tally
+        ground, tally
             Of the campaign.
         repeated
             The account of its realizations with half the cell.
         stopped
             Why not all was done, "" if it was.
-        draw
+        write_report
             Makes the report.
         """
         code, verdict = _end(tally, stopped)
@@ -89,28 +107,28 @@ class Site:
         say(f"\n{self.scene.title}: {verdict}")
         try:
             if tally.prefix > 0:
-                result = self._result(setup, tally, verdict, found)
+                result = self._result(ground, tally, verdict, found)
                 say(summary(Results(result, self.scene)))
-                dataset.write(result, self.directory / RESULTS)
+                dataset.write(result, self.path / RESULTS)
             self.level.store.pack()
-            manifest.end(self.directory, code, verdict)
+            manifest.end(self.path, code, verdict)
         except OSError as error:
             say(f"The results cannot be written ({error}). All records are kept: make room and repeat the command.")
             return ExitCode.RESUMABLE
         if tally.prefix > 0:
-            say(f"Results: {self.directory / RESULTS} (opens with xarray)")
-            if draw is not None:
-                _attempt(draw, self.directory)
-            say(f"One realization again, with all particles: campaign replay {self.directory} K")
+            say(f"Results: {self.path / RESULTS} (opens with xarray)")
+            if write_report is not None:
+                _attempt(write_report, self.path)
+            say(f"One realization again, with all particles: campaign replay {self.path} K")
         if code is ExitCode.RESUMABLE:
             say("Give the same command again to continue.")
         return code
 
-    def _result(self, setup: Setup, tally: Tally, verdict: str, found: Discretisation | None) -> xr.Dataset:
+    def _result(self, ground: PreparedGround, tally: Tally, verdict: str, found: Discretisation | None) -> xr.Dataset:
         store = self.level.store
         records = [store.read(realization) for realization in range(tally.prefix)]
-        about = attributes(self.scene, manifest.read(self.directory), verdict)
-        return dataset.build(setup, records, store.read(BASELINE), tally.history(), about, found)
+        about = attributes(self.scene, manifest.read(self.path), verdict)
+        return dataset.build(ground, records, store.read(BASELINE), tally.history(), about, found)
 
 
 def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:
@@ -128,9 +146,9 @@ def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:
     return ExitCode.DONE, verdict
 
 
-def _attempt(draw: Draw, directory: Path) -> None:
+def _attempt(write_report: WriteReport, directory: Path) -> None:
     """Draw the report if that can be done; the results do not depend on it."""
     try:
-        say(f"Report: {draw(directory)}")
+        say(f"Report: {write_report(directory)}")
     except Exception as error:
         say(f"The report could not be made ({error!r}); results.nc is safe. Try again: campaign report {directory}")

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from campaign.record import Record, Status, missing_values
 from campaign.scene import Scene
-from campaign.simulation.contract import Setup, sizes
+from campaign.simulation.contract import PreparedGround, sizes
 from campaign.statistics.tally import Tally, outcome_of, tally_of
 from campaign.storage.attempts import Attempts
 from campaign.storage.record_store import RecordStore
@@ -26,13 +26,13 @@ class Level:
         self._attempts.create()
         return self.store.recover()
 
-    def give_up_crashed(self, setup: Setup) -> None:
+    def give_up_crashed(self, ground: PreparedGround) -> None:
         """Write records for the realizations that took the process down too often."""
         finished = self.store.finished()
         for realization, reason in self._attempts.given_up().items():
             if realization not in finished:
                 say(f"Realization {realization} is recorded as crashed: it {reason}.")
-                self.store.write(Record(realization, Status.crashed, reason, missing_values(sizes(setup))))
+                self.store.write(Record(realization, Status.crashed, reason, missing_values(sizes(ground))))
 
     def tally(self) -> Tally:
         """Return the account of what earlier starts have finished or given up."""

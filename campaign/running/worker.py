@@ -4,11 +4,10 @@ import time
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 from campaign.record import Record, Status, missing_values
 from campaign.running.stop_request import StopRequest
-from campaign.simulation.contract import Model, sizes
+from campaign.simulation.contract import Interrupted, PreparedGround, sizes
 from campaign.statistics.tally import Report, outcome_of
 from campaign.storage.attempts import Attempts
 from campaign.storage.record_store import RecordStore
@@ -65,9 +64,7 @@ class Interrupt:
 class Worker:
     """Turns ids into records; what goes wrong in a realization is a status in the data."""
 
-    model: Model
-    setup: Any
-    sampler: Any
+    ground: PreparedGround
     store: RecordStore
     attempts: Attempts
     rank: int
@@ -89,8 +86,8 @@ class Worker:
     def _simulate(self, realization: int) -> Record | None:
         """Return the record, or None when the realization is abandoned."""
         try:
-            return self.model.simulate(self.setup, self.sampler, realization, self.interrupt)
-        except self.model.Interrupted:
+            return self.ground.simulate(realization, self.interrupt)
+        except Interrupted:
             if self.interrupt.abandons:
                 return None
             reason = f"took longer than the realization_timeout of {self.interrupt.timeout:g} s"
@@ -99,7 +96,7 @@ class Worker:
             return self._without_result(realization, Status.crashed, _reason(error))
 
     def _without_result(self, realization: int, status: Status, reason: str) -> Record:
-        values = missing_values(sizes(self.setup)) | {"wall_time": self.interrupt.elapsed}
+        values = missing_values(sizes(self.ground)) | {"wall_time": self.interrupt.elapsed}
         return Record(realization, status, reason, values)
 
 

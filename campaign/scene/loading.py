@@ -12,13 +12,13 @@ from campaign.scene.sections import SceneFile
 EXAMPLE = "ma2023"
 
 
-def load_scene(source: str | Path, overrides: Iterable[str] = ()) -> Scene:
+def load_scene(source: str | Path | Scene, overrides: Iterable[str] = ()) -> Scene:
     """Read and validate a scene.
 
     Parameters
     ----------
     source
-        A TOML file, or the name of a built-in scene.
+        A TOML file, the name of a built-in scene, or a scene that is to be changed.
     overrides
         "KEY=VALUE" with a dotted key; a value that is not TOML is taken as text, because shells strip quotes.
 
@@ -27,6 +27,8 @@ def load_scene(source: str | Path, overrides: Iterable[str] = ()) -> Scene:
     SceneError
         With every mistake at once.
     """
+    if isinstance(source, Scene):
+        return scene_of(source.text, [*source.overrides, *overrides], source.name)
     return _validated(read_document(source, overrides))
 
 

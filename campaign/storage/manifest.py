@@ -10,7 +10,7 @@ from campaign.errors import RefusalError
 from campaign.scene import Scene, differences
 from campaign.storage.files import write_atomically
 from campaign.storage.layout import ATTEMPTS, HALF_CELL, LOCK, MANIFEST, PACKS, RECORDS
-from campaign.storage.provenance import git_describe, machine, source_hashes, versions
+from campaign.storage.provenance import git_describe, library_versions, machine, source_hashes
 
 OWN = {LOCK, RECORDS, PACKS, ATTEMPTS, HALF_CELL}
 """What a campaign that was killed before its manifest was written may leave."""
@@ -107,7 +107,7 @@ def _about(scene: Scene) -> Manifest:
 
 def _start(ranks: int) -> Manifest:
     sources = source_hashes() | {"git": git_describe()}
-    return {"at": _now(), "ranks": ranks, "versions": versions()} | machine() | sources
+    return {"at": _now(), "ranks": ranks, "versions": library_versions()} | machine() | sources
 
 
 def _now() -> str:

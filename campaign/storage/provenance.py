@@ -25,7 +25,7 @@ def source_hashes() -> dict[str, str]:
     }
 
 
-def versions() -> dict[str, str]:
+def library_versions() -> dict[str, str]:
     """Return the versions of Python and of the libraries that take part."""
     return {"python": platform.python_version()} | {name: _version(name) for name in LIBRARIES}
 

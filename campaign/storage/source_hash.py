@@ -9,7 +9,7 @@ import hashlib
 from collections.abc import Mapping
 from pathlib import Path
 
-ROOT = "campaign.simulation.realization"
+ROOT = "campaign.simulation.ground"
 """The module that turns a scene and an id into a record."""
 
 HOME = Path(__file__).parents[2]

@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 
 from campaign.errors import RefusalError, SamplerError
-from campaign.fields.strengths import StrengthSampler
 from campaign.record import USABLE
 from campaign.scene import Scene, kept_scene
 from campaign.scene.cost import realization_seconds
 from campaign.seeds import BASELINE
-from campaign.simulation.realization import Interrupted, Setup, build_sampler, prepare, simulate
+from campaign.simulation.contract import Interrupted
+from campaign.simulation.ground import Ground, prepare
 from campaign.statistics.intervals import Sample
 from campaign.terminal import duration
 
@@ -193,11 +193,10 @@ class Bench:
     def _run(self, setting: str, scene: Scene, estimate: float) -> Trial:
         runouts, seconds, reasons = np.full(len(self.ids), np.nan), [], []
         try:
-            setup = prepare(scene)
-            sampler = build_sampler(setup, self._directory)
+            ground = prepare(scene, self._directory)
             for i, realization in enumerate(self.ids):
                 begin = time.process_time()
-                runouts[i], reason = self._runout(setup, sampler, realization)
+                runouts[i], reason = self._runout(ground, realization)
                 seconds.append(time.process_time() - begin)
                 reasons.append(reason)
         except (RefusalError, SamplerError) as refusal:
@@ -205,10 +204,10 @@ class Bench:
         median = float(np.median(seconds)) if seconds else estimate
         return Trial(setting, scene.numerics.cell, runouts, median, next(filter(None, reasons), ""))
 
-    def _runout(self, setup: Setup, sampler: StrengthSampler, realization: int) -> tuple[float, str]:
+    def _runout(self, ground: Ground, realization: int) -> tuple[float, str]:
         """Return the final run-out in m, or NaN and why there is none."""
         try:
-            record = simulate(setup, sampler, realization, lambda: time.process_time() > self._end)
+            record = ground.simulate(realization, lambda: time.process_time() > self._end)
         except Interrupted:
             return np.nan, "the budget of CPU time is used up"
         except Exception as error:

@@ -3,11 +3,11 @@
 import statistics
 import time
 
-import numpy as np
 import pytest
 
 from campaign.scene import load_scene
-from campaign.simulation.realization import prepare, strengthen
+from campaign.seeds import BASELINE
+from campaign.simulation.ground import prepare
 from solver.constants import STANDARD_GRAVITY
 from solver.march import March
 from solver.step import advance
@@ -21,12 +21,10 @@ IN_FULL_SLIDE = 2.0  # s
 
 def particle_steps_per_second() -> list[float]:
     """Return the speed in each of `RUNS` stretches of the printed scene (10,090 particles) in full slide."""
-    setup = prepare(load_scene("ma2023-printed"))
-    strength = setup.scene.soil
-    mean = np.full(setup.n_particles, strength.cohesion.mean), np.full(setup.n_particles, strength.friction_angle.mean)
-    march = March(setup.model, strengthen(setup, *mean))
+    ground = prepare(load_scene("ma2023-printed"))
+    march = March(ground.model, ground.released(BASELINE))
     march.advance_to(IN_FULL_SLIDE)
-    model = setup.model
+    model = ground.model
     dt = stable_step(model.courant, model.cell_size, model.wave_speed, 5.0)
     speeds = []
     for _ in range(RUNS):
@@ -34,7 +32,7 @@ def particle_steps_per_second() -> list[float]:
         taken = advance(
             march.particles, march.grid, march.work, model.soil, model.scheme, STANDARD_GRAVITY, 0.0, dt, STEPS
         )
-        speeds.append(taken * setup.n_particles / (time.perf_counter() - begin))
+        speeds.append(taken * ground.n_particles / (time.perf_counter() - begin))
     return speeds
 
 

@@ -6,8 +6,8 @@ from campaign.record import FAILED, QUANTITIES, Record, Status, missing_values
 from campaign.results import dataset
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
-from campaign.simulation import realization
 from campaign.simulation.contract import sizes
+from campaign.simulation.ground import prepare
 from campaign.statistics.tally import outcome_of, tally_of
 from campaign.storage import manifest
 from campaign.storage.provenance import attributes
@@ -22,15 +22,14 @@ def small_scene(*overrides):
 
 def run(directory, scene):
     """Run a campaign without MPI."""
-    setup = realization.prepare(scene)
-    sampler = realization.build_sampler(setup, directory)
+    ground = prepare(scene, directory)
     ids = range(BASELINE, scene.campaign.realizations)
-    records = [realization.simulate(setup, sampler, k, lambda: False) for k in ids]
-    conclude(directory, scene, setup, records)
-    return setup, records
+    records = [ground.simulate(k) for k in ids]
+    conclude(directory, scene, ground, records)
+    return ground, records
 
 
-def conclude(directory, scene, setup, records):
+def conclude(directory, scene, ground, records):
     """Keep what a campaign keeps; `records` begin with the baseline's."""
     directory.mkdir(exist_ok=True)
     manifest.begin(directory, scene, 1, allow_drift=False)
@@ -42,16 +41,16 @@ def conclude(directory, scene, setup, records):
     history = tally.history()
     about = attributes(scene, manifest.read(directory), history.verdict)
     kept = records[1 : 1 + tally.prefix]
-    dataset.write(dataset.build(setup, kept, records[0], history, about), directory / "results.nc")
+    dataset.write(dataset.build(ground, kept, records[0], history, about), directory / "results.nc")
 
 
-def made_up(setup, realization, runout, status=Status.slid, reason=""):
+def made_up(ground, realization, runout, status=Status.slid, reason=""):
     """Return a record that ends with a given run-out (m)."""
-    values = missing_values(sizes(setup))
+    values = missing_values(sizes(ground))
     if status not in FAILED:
         values = {name: np.zeros_like(np.asarray(values[name])) for name in QUANTITIES}
         values["final_runout"] = runout
-        values["runout"] = runout * np.linspace(0, 1, len(setup.coordinates["time"]))
+        values["runout"] = runout * np.linspace(0, 1, len(ground.coordinates["time"]))
         values["settle_time"] = np.nan if status is Status.not_settled else 5.0
-        values["deposit_surface"] = np.full(len(setup.coordinates["x"]), 4.0)
+        values["deposit_surface"] = np.full(len(ground.coordinates["x"]), 4.0)
     return Record(realization, status, reason, values)

@@ -21,7 +21,7 @@ SETUP = SimpleNamespace(
         "time": np.linspace(0, 1, SIZES["time"]),
         "x": np.arange(float(SIZES["x"])),
         "particle_x": np.arange(float(SIZES["particle"])),
-        "particle_z": np.ones(SIZES["particle"]),
+        "particle_y": np.ones(SIZES["particle"]),
     },
 )
 STATUSES = [Status.slid, Status.no_slide, Status.crashed, *[Status.slid] * 67]

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from small_campaign import small_scene
 
-from campaign.simulation import realization
 from campaign.simulation.detachment import connected_parts, detached_volume
+from campaign.simulation.ground import prepare
+from campaign.simulation.solver_model import model_of
 from solver.grid import allocate_grid
 
 CELL = 2.0
@@ -13,12 +14,12 @@ CELL = 2.0
 
 @pytest.fixture(scope="module")
 def model():
-    return realization.model_of(small_scene())
+    return model_of(small_scene())
 
 
 @pytest.fixture(scope="module")
 def ground():
-    return realization.prepare(small_scene("numerics.gravity=ramp")).start
+    return prepare(small_scene("numerics.gravity=ramp")).in_situ
 
 
 def pushed(ground, beyond, distance):

@@ -7,7 +7,7 @@ from small_campaign import small_scene
 from campaign.record import Status
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
-from campaign.simulation.realization import build_sampler, prepare
+from campaign.simulation.ground import prepare
 from campaign.statistics.discretisation import Discretisation, estimate, with_half_cell
 from campaign.statistics.tally import Outcome, tally_of
 
@@ -41,9 +41,8 @@ def test_half_the_cell_halves_the_rate_of_local_softening():
     assert half.soil.softening.rate_at(half.numerics.cell) == scene.soil.softening.rate_at(scene.numerics.cell) / 2
 
 
-def test_a_realization_is_the_same_ground_on_both_meshes(scene, tmp_path):
-    samplers = [build_sampler(prepare(each), tmp_path) for each in (scene, with_half_cell(scene, 3))]
-    here, there = (sampler.draw(scene.campaign.seed, 2) for sampler in samplers)
+def test_a_realization_is_the_same_ground_on_both_meshes(scene):
+    here, there = (prepare(each).draw(2) for each in (scene, with_half_cell(scene, 3)))
     assert here.grid == there.grid
     np.testing.assert_array_equal(here.cohesion, there.cohesion)
     np.testing.assert_array_equal(here.friction_angle, there.friction_angle)

@@ -8,7 +8,7 @@ import pytest
 from small_campaign import run, small_scene
 
 from campaign.commands import replay as replaying
-from campaign.commands.replay import replay, verdict
+from campaign.commands.replay import comparison, replay
 from campaign.errors import RefusalError
 from campaign.record import Status
 from campaign.seeds import BASELINE
@@ -19,8 +19,8 @@ from campaign.storage.vtkhdf import ParticleFile
 @pytest.fixture(scope="module")
 def campaign(tmp_path_factory):
     directory = tmp_path_factory.mktemp("campaign")
-    setup, records = run(directory, small_scene("campaign.realizations=2"))
-    return directory, setup, records
+    ground, records = run(directory, small_scene("campaign.realizations=2"))
+    return directory, ground, records
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +42,7 @@ def test_another_last_bit_is_noticed(campaign, name, sentence):
     record = RecordStore(campaign[0]).read(1)
     changed = {name: np.nextafter(record.values[name], np.inf), "wall_time": 0.0}
     other = type(record)(1, record.status, "", record.values | changed)
-    assert re.search(f"NOT the recorded one in {name}; .*{sentence}", verdict(other, record))
+    assert re.search(f"NOT the recorded one in {name}; .*{sentence}", comparison(other, record))
 
 
 def test_the_file_has_the_structure_of_the_format(path, campaign):

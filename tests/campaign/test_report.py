@@ -16,11 +16,11 @@ from campaign.report.answer import answer
 from campaign.report.error_budget import error_budget
 from campaign.report.figures import style
 from campaign.report.page import write_report
-from campaign.report.snapshots import see_again
+from campaign.report.snapshots import replay
 from campaign.report.summary import summary
 from campaign.results.results import Results, read_results
 from campaign.seeds import BASELINE
-from campaign.simulation.realization import build_sampler, prepare
+from campaign.simulation.ground import prepare
 
 PNG = b"\x89PNG\r\n\x1a\n"
 FIGURES = 8
@@ -61,7 +61,7 @@ def campaign(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def setup():
+def ground():
     return prepare(small_scene())
 
 
@@ -70,13 +70,13 @@ def page(campaign):
     return Page(write_report(campaign))
 
 
-def made_up_page(directory, setup, runouts, statuses=None, baseline=Status.slid, overrides=()):
+def made_up_page(directory, ground, runouts, statuses=None, baseline=Status.slid, overrides=()):
     statuses = statuses or [Status.slid] * len(runouts)
     scene = small_scene(f"campaign.realizations={len(runouts)}", *overrides)
-    records = [made_up(setup, BASELINE, 9.0, baseline)]
+    records = [made_up(ground, BASELINE, 9.0, baseline)]
     for k, (runout, status) in enumerate(zip(runouts, statuses, strict=True)):
-        records.append(made_up(setup, k, runout, status, "a reason <b>&" if status is Status.crashed else ""))
-    conclude(directory, scene, setup, records)
+        records.append(made_up(ground, k, runout, status, "a reason <b>&" if status is Status.crashed else ""))
+    conclude(directory, scene, ground, records)
     return Page(write_report(directory))
 
 
@@ -119,10 +119,10 @@ def test_the_drawn_slides_are_the_recorded_ones(page):
     assert "exactly as recorded" not in page.text
 
 
-def test_the_runout_in_a_drawing_is_the_recorded_one_whatever_counts_as_a_slide(tmp_path):
+def test_the_runout_in_a_drawing_is_the_recorded_one_whatever_counts_as_a_slide():
     """No particle moves 8 m in 3 s, so nothing is a slide here; with the paper's 0.1 m the run-out would be 3.2 m."""
-    setup = prepare(small_scene("slide.displaced=8 m", "slide.failed=9 m", "numerics.end_time=3 s"))
-    seen = see_again(setup, build_sampler(setup, tmp_path), BASELINE)
+    ground = prepare(small_scene("slide.displaced=8 m", "slide.failed=9 m", "numerics.end_time=3 s"))
+    seen = replay(ground, BASELINE)
     assert seen.end.runout == seen.record.values["final_runout"] == 0.0
 
 
@@ -139,38 +139,38 @@ def test_scene_and_provenance_are_on_the_page(page):
 
 
 @pytest.mark.parametrize("n", [1, 4])
-def test_few_realizations_give_a_page(tmp_path, setup, n):
-    page = made_up_page(tmp_path, setup, list(9.0 + 0.1 * np.arange(n)))
+def test_few_realizations_give_a_page(tmp_path, ground, n):
+    page = made_up_page(tmp_path, ground, list(9.0 + 0.1 * np.arange(n)))
     assert ("It takes more of them" in page.text) == (n == 1)
     assert len(page.images) == FIGURES - (2 if n == 1 else 0) - 1
 
 
-def test_no_slide_at_all(tmp_path, setup):
-    page = made_up_page(tmp_path, setup, [0.0] * 12, [Status.no_slide] * 12)
+def test_no_slide_at_all(tmp_path, ground):
+    page = made_up_page(tmp_path, ground, [0.0] * 12, [Status.no_slide] * 12)
     assert "No answer: none of the 12 realizations" in page.text
     assert len(page.images) == 2  # where the ground moves, the deterministic slide
 
 
-def test_nothing_but_failures(tmp_path, setup):
-    page = made_up_page(tmp_path, setup, [np.nan] * 12, [Status.crashed] * 12, baseline=Status.diverged)
+def test_nothing_but_failures(tmp_path, ground):
+    page = made_up_page(tmp_path, ground, [np.nan] * 12, [Status.crashed] * 12, baseline=Status.diverged)
     assert "failed: crashed" in page.text
     assert "a reason <b>&" in page.text
     assert "All realizations failed" in page.text
 
 
-def test_some_failures_are_bounded(tmp_path, setup):
+def test_some_failures_are_bounded(tmp_path, ground):
     """Of 12 one failed and 10 of the other 11 exceed 9.0 m: 10/12 to 11/12."""
     statuses = [Status.crashed, *[Status.not_settled] * 2, *[Status.slid] * 9]
-    page = made_up_page(tmp_path, setup, [np.nan, 8.0, *(9.1 + 0.1 * np.arange(10))], statuses)
+    page = made_up_page(tmp_path, ground, [np.nan, 8.0, *(9.1 + 0.1 * np.arange(10))], statuses)
     assert "1 failed" in page.text
     assert "83 to 92 %" in page.text
     assert "2 of the 11 run-outs are lower bounds" in page.text
 
 
-def test_convergence_is_told(tmp_path, setup):
+def test_convergence_is_told(tmp_path, ground):
     runouts = list(np.random.default_rng(1).normal(9.0, 0.5, 24))
     loose = ["campaign.mean_tolerance=0.5", "campaign.variance_tolerance=0.9"]
-    page = made_up_page(tmp_path, setup, runouts, overrides=loose)
+    page = made_up_page(tmp_path, ground, runouts, overrides=loose)
     assert "The campaign converged at" in page.text
     assert "did not come out exactly as recorded" in page.text
 
@@ -191,7 +191,7 @@ def test_a_discretisation_error_is_used_where_it_is_known(campaign):
 
 
 def test_without_a_simulation_the_other_figures_are_drawn(campaign, monkeypatch):
-    def fail(_scene):
+    def fail(_scene, _directory):
         raise RuntimeError("out of order")
 
     monkeypatch.setattr(report, "prepare", fail)

@@ -11,7 +11,7 @@ from campaign import cli
 from campaign.errors import RefusalError
 from campaign.report.figures.style import in_style
 from campaign.scene import load_scene
-from campaign.simulation.realization import build_sampler, prepare, simulate
+from campaign.simulation.ground import Ground, prepare
 from campaign.tradeoff import trials as tradeoff
 from campaign.tradeoff.chart import chart
 from campaign.tradeoff.table import rows, table
@@ -89,8 +89,7 @@ def test_a_short_comparison_on_the_command_line(tmp_path, monkeypatch, capsys):
     assert "reference" in capsys.readouterr().out
     with xr.open_dataset(tmp_path / "t" / "tradeoff.nc") as data:
         kept = data.load()
-    setup = prepare(load_scene("ma2023", SHORT))
-    record = simulate(setup, build_sampler(setup, tmp_path), 0, lambda: False)
+    record = prepare(load_scene("ma2023", SHORT)).simulate(0)
     assert float(kept.final_runout.sel(setting=OWN, realization=0)) == record.values["final_runout"]
     with (tmp_path / "t" / "tradeoff.csv").open() as file:
         assert len(list(csv.reader(file))) == 1 + kept.sizes["setting"]
@@ -119,7 +118,8 @@ def test_a_run_that_raises_is_a_failure_of_its_setting(tmp_path, monkeypatch):
             raise error
         return simulate(*arguments)
 
-    monkeypatch.setattr(tradeoff, "simulate", simulate_badly)
+    simulate = Ground.simulate
+    monkeypatch.setattr(Ground, "simulate", simulate_badly)
     tried = tradeoff.Bench(1, 100.0, tmp_path).tried(OWN, small_scene(*SHORT), 0.1, lambda line: None)
     assert tried.failures == 1
     assert "no mass" in tried.reason

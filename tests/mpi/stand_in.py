@@ -1,4 +1,4 @@
-"""A model in the place of the solver: instant, deterministic in (seed, realization, cell), and faulty on demand.
+"""A ground in the place of the solver's: instant, deterministic in (seed, realization, cell), and faulty on demand.
 
 Run under mpirun as a campaign: `python stand_in.py DIR REALIZATIONS`, with STAND_IN_* variables for faults.
 """
@@ -8,6 +8,7 @@ import resource
 import signal
 import sys
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -16,17 +17,14 @@ import numpy as np
 from campaign.record import QUANTITIES, Record, Status
 from campaign.scene import Scene, load_scene
 from campaign.seeds import BASELINE, Stream, generator
+from campaign.simulation.contract import Interrupted
 
 SIZES = {"time": 11, "x": 7, "particle": 13}
 
 
-class Interrupted(Exception):  # noqa: N818 -- not an error
-    """As in `campaign.simulation.realization`."""
-
-
 @dataclass
-class Setup:
-    """As in `campaign.simulation.realization`."""
+class StandIn:
+    """In the place of `campaign.simulation.ground.Ground`."""
 
     scene: Scene
     n_particles: int = SIZES["particle"]
@@ -36,29 +34,24 @@ class Setup:
             "time": np.linspace(0, 10, SIZES["time"]),
             "x": np.arange(SIZES["x"]) + 0.5,
             "particle_x": np.arange(SIZES["particle"]) * 0.5,
-            "particle_z": np.ones(SIZES["particle"]),
+            "particle_y": np.ones(SIZES["particle"]),
         }
     )
 
+    def simulate(self, realization: int, interrupt: Callable[[], bool]) -> Record:
+        begin, length = time.monotonic(), float(os.environ.get("STAND_IN_SECONDS", "0"))
+        while time.monotonic() - begin < length:
+            if interrupt():
+                raise Interrupted
+            time.sleep(0.005)
+        misbehave(realization)
+        return record(self.scene.campaign.seed, realization, self.scene.numerics.cell)
 
-def prepare(scene: Scene) -> Setup:
+
+def prepare(scene: Scene, _directory: Path) -> StandIn:
     if "STAND_IN_RAISE_IN_PREPARE" in os.environ:
         raise RuntimeError("the runner itself is broken")
-    return Setup(scene)
-
-
-def build_sampler(_setup: Setup, _directory: Path) -> None:
-    return None
-
-
-def simulate(setup: Setup, _sampler: None, realization: int, interrupt) -> Record:
-    begin, length = time.monotonic(), float(os.environ.get("STAND_IN_SECONDS", "0"))
-    while time.monotonic() - begin < length:
-        if interrupt():
-            raise Interrupted
-        time.sleep(0.005)
-    misbehave(realization)
-    return record(setup.scene.campaign.seed, realization, setup.scene.numerics.cell)
+    return StandIn(scene)
 
 
 def misbehave(realization: int) -> None:
@@ -83,8 +76,8 @@ def record(seed: int, realization: int, cell: float) -> Record:
 
 
 if __name__ == "__main__":
-    from campaign.running.runner import run
+    from campaign.running.mpi import run_on_ranks
 
     directory, count, *overrides = sys.argv[1:]
     wanted = [f"campaign.realizations={count}", "campaign.discretisation_pairs=0", *overrides]
-    sys.exit(run(lambda: load_scene("ma2023", wanted), Path(directory), sys.modules["__main__"]))
+    sys.exit(run_on_ranks(lambda: load_scene("ma2023", wanted), Path(directory), prepare))

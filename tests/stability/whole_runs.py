@@ -1,10 +1,8 @@
 """Whole realizations with settings that a scene file would not be allowed."""
 
-import tempfile
 from contextlib import nullcontext
 from itertools import product
 from math import inf, radians
-from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
@@ -12,7 +10,7 @@ import numpy as np
 from campaign.errors import RefusalError
 from campaign.record import FAILED
 from campaign.scene import load_scene
-from campaign.simulation import realization
+from campaign.simulation.ground import prepare
 
 SLOPE = ["numerics.cell=2 m", "numerics.output_interval=0.5 s", "geometry.slope.crest=10 m"]
 
@@ -81,13 +79,12 @@ def simulate(settings, without_limit=False, observe=lambda march: None):
     Without the limit on the Courant number, the march has only its own progress to judge by.
     """
     try:
-        setup = realization.prepare(changed(load_scene("ma2023", SLOPE), settings))
+        ground = prepare(changed(load_scene("ma2023", SLOPE), settings))
     except RefusalError:
         return None
     limit = patch("solver.march.largest_courant", return_value=inf) if without_limit else nullcontext()
-    with limit, np.errstate(all="ignore"), tempfile.TemporaryDirectory() as directory:
-        sampler = realization.build_sampler(setup, Path(directory))
-        return realization.simulate(setup, sampler, 0, lambda: False, observe)
+    with limit, np.errstate(all="ignore"):
+        return ground.simulate(0, observe=observe)
 
 
 def soft_ground(courant):

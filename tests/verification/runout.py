@@ -7,7 +7,6 @@ computes what ``runout.json`` lacks (two hours on two cores if it is empty, most
 """
 
 import json
-import tempfile
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
@@ -16,7 +15,7 @@ from runout_ladders import LADDERS, NOISE, key_of
 
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
-from campaign.simulation.realization import build_sampler, prepare, simulate
+from campaign.simulation.ground import prepare
 
 STORE = Path(__file__).with_suffix(".json")
 KEPT = ("final_runout_mass", "final_runout", "sliding_volume", "settle_time", "energy_error", "wall_time")
@@ -24,9 +23,7 @@ KEPT = ("final_runout_mass", "final_runout", "sliding_volume", "settle_time", "e
 
 def compute(scene, overrides):
     """Return the status of the deterministic run and the values that are kept."""
-    with tempfile.TemporaryDirectory() as directory:
-        setup = prepare(load_scene(scene, overrides))
-        record = simulate(setup, build_sampler(setup, Path(directory)), BASELINE, lambda: False)
+    record = prepare(load_scene(scene, overrides)).simulate(BASELINE)
     return {"status": record.status.name} | {name: float(record.values[name]) for name in KEPT}
 
 

@@ -13,8 +13,9 @@ import pytest
 from driver import Row
 
 from campaign.scene import load_scene
+from campaign.seeds import BASELINE
 from campaign.simulation.detachment import detached_volume
-from campaign.simulation.realization import prepare, strengthen
+from campaign.simulation.ground import prepare
 from solver import observables
 from solver.march import Outcome, run
 
@@ -43,17 +44,15 @@ class Collapse(NamedTuple):
 def collapse(*overrides):
     """Run the built-in scene with its mean strengths everywhere."""
     scene = load_scene("bui2008", overrides)
-    setup = prepare(scene)
-    n = setup.n_particles
-    strength = scene.soil.cohesion.mean, scene.soil.friction_angle.mean
-    start = strengthen(setup, *(np.full(n, mean) for mean in strength))
-    history = run(setup.model, start, setup.coordinates["time"])
-    edges = np.arange(0.0, setup.model.surface.width + 0.5 * COLUMN, COLUMN)
-    half_spacing = 0.5 * setup.model.cell_size / np.sqrt(setup.model.particles_per_cell)
+    ground = prepare(scene)
+    start = ground.released(BASELINE)
+    history = run(ground.model, start, ground.coordinates["time"])
+    edges = np.arange(0.0, ground.model.surface.width + 0.5 * COLUMN, COLUMN)
+    half_spacing = 0.5 * ground.model.cell_size / np.sqrt(ground.model.particles_per_cell)
     # Separated bars have been given the volume of the gaps between them; their mass knows better.
-    debris = history.particles._replace(volume=history.particles.mass / setup.model.density)
+    debris = history.particles._replace(volume=history.particles.mass / ground.model.density)
     height = observables.deposit_surface(debris, half_spacing, edges)
-    return Collapse(setup.model, start, history, setup.model.slide, 0.5 * (edges[1:] + edges[:-1]), height)
+    return Collapse(ground.model, start, history, ground.model.slide, 0.5 * (edges[1:] + edges[:-1]), height)
 
 
 def measured(name):

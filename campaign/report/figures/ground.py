@@ -14,7 +14,7 @@ def influence(results: Results, section: Section) -> Illustration:
     data = results.data
     figure, panels = new_figure(2 * (0.92 * WIDTH * section.panel_height + 0.3) + 1.0, 2, sharex=True)
     share = data["influence_probability"].values
-    particles = section.draw(panels[0], data["particle_x"].values, data["particle_z"].values, share, "cividis", (0, 1))
+    particles = section.draw(panels[0], data["particle_x"].values, data["particle_y"].values, share, "cividis", (0, 1))
     figure.colorbar(particles, ax=panels[0], label="probability (-)", location="bottom", shrink=0.6, aspect=40)
     surfaces = data["deposit_surface"].values[~results.has_failed]
     q = np.quantile(surfaces, [0.05, 0.5, 0.95], axis=0)

@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 
 from campaign.report.figures.style import BLACK, ORANGE
 from campaign.scene import Scene
-from campaign.simulation.realization import Array, surface_of
+from campaign.simulation.solver_model import Array, surface_of
 from solver.surface import Surface
 
 MARGIN = 0.08
@@ -54,16 +54,16 @@ class Section:
         self,
         axes: Axes,
         x: Array,
-        z: Array,
+        y: Array,
         values: Array,
         colours: str,
         limits: tuple[float, float],
         size: float = 1.0,
     ) -> PolyCollection:
-        """Draw particles at `x`, `z` (m), coloured by their values, `size` times as large as they were at first."""
+        """Draw particles at `x`, `y` (m), coloured by their values, `size` times as large as they were at first."""
         half = 0.5 * size * SEAM * self.side
         corners = np.array([(-half, -half), (half, -half), (half, half), (-half, half)])
-        squares = np.column_stack([x, z])[:, None, :] + corners
+        squares = np.column_stack([x, y])[:, None, :] + corners
         particles = PolyCollection(
             list(squares), array=values, cmap=colours, norm=Normalize(*limits), edgecolors="none", antialiased=False
         )
@@ -81,11 +81,11 @@ class Section:
         """Mark how far the front came beyond the toe, in m."""
         if runout <= 0:
             return
-        toe_x, toe_z = self.surface.toe
-        height = toe_z + ABOVE_DEPOSIT * (self.surface.top - toe_z)
+        toe_x, toe_y = self.surface.toe
+        height = toe_y + ABOVE_DEPOSIT * (self.surface.top - toe_y)
         arrow = {"arrowstyle": "<->", "color": ORANGE, "shrinkA": 0, "shrinkB": 0}
         axes.annotate("", (toe_x + runout, height), (toe_x, height), arrowprops=arrow)
-        axes.vlines([toe_x, toe_x + runout], toe_z, 1.04 * height, color=ORANGE, linewidth=0.8)
+        axes.vlines([toe_x, toe_x + runout], toe_y, 1.04 * height, color=ORANGE, linewidth=0.8)
         axes.text(toe_x + 0.5 * runout, 1.02 * height, f"{runout:.2f} m", color=ORANGE, ha="center", va="bottom")
 
 

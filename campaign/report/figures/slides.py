@@ -11,19 +11,19 @@ from matplotlib.figure import Figure
 from campaign.record import FAILED
 from campaign.report.figures.section import MOVED, Section
 from campaign.report.figures.style import WIDTH, Illustration, letter, new_figure, upper_limit
-from campaign.report.snapshots import Slide
-from campaign.simulation.realization import Setup
+from campaign.report.snapshots import ReplayedSlide
+from campaign.simulation.ground import Ground
 
 CAPTION_OUTLINE = "Dashed: the ground before the slide; orange: run-out from the initial toe."
 
 
-def configurations(section: Section, slide: Slide) -> Illustration:
+def configurations(section: Section, slide: ReplayedSlide) -> Illustration:
     """Draw the deterministic slide at its snapshots, coloured by displacement (figure 3 of the paper)."""
     shots = slide.snapshots
     figure, panels = _stack(section, len(shots))
     limits = (0.0, upper_limit(shots[-1].displacement))
     for panel, shot in zip(panels, shots, strict=True):
-        particles = section.draw(panel, shot.x, shot.z, shot.displacement, "viridis", limits, MOVED)
+        particles = section.draw(panel, shot.x, shot.y, shot.displacement, "viridis", limits, MOVED)
         section.mark_runout(panel, shot.runout)
     letter(panels, [f"{shot.time:.1f} s" for shot in shots])
     panels[-1].set_title(f"{panels[-1].get_title(loc='left')}, the end", loc="left")
@@ -38,17 +38,17 @@ def configurations(section: Section, slide: Slide) -> Illustration:
     return Illustration(figure, caption, alt)
 
 
-def strengths(section: Section, setup: Setup, slide: Slide) -> Illustration:
+def strengths(section: Section, ground: Ground, slide: ReplayedSlide) -> Illustration:
     """Draw peak cohesion and friction angle where the particles were at first (figure 4 of the paper)."""
     figure, panels = _stack(section, 2, colour_bars=2)
-    ground, k = setup.ground, slide.realization
+    lattice, k = ground.lattice, slide.realization
     fields = {"cohesion (kPa)": slide.cohesion / 1e3, "friction angle (°)": np.degrees(slide.friction_angle)}
     for panel, (label, values) in zip(panels, fields.items(), strict=True):
         low, high = (float(np.percentile(values, share)) for share in (0.5, 99.5))
-        particles = section.draw(panel, ground.x, ground.y, values, "cividis", (low, max(high, low + 1e-9)))
+        particles = section.draw(panel, lattice.x, lattice.y, values, "cividis", (low, max(high, low + 1e-9)))
         _colour_bar(figure, [panel], particles, label, extend="both")
     letter(panels, ["peak cohesion", "peak friction angle"])
-    asked = setup.scene.field.cross_correlation
+    asked = ground.scene.field.cross_correlation
     correlation = np.corrcoef(slide.cohesion, slide.friction_angle)[0, 1]
     caption = (
         f"Peak strength of realization {k}, whose final run-out is the median of all, where the particles were before "
@@ -59,14 +59,14 @@ def strengths(section: Section, setup: Setup, slide: Slide) -> Illustration:
     return Illustration(figure, caption, alt)
 
 
-def outcomes(section: Section, slides: Mapping[str, Slide]) -> Illustration:
+def outcomes(section: Section, slides: Mapping[str, ReplayedSlide]) -> Illustration:
     """Draw plastic strain at the end of some slides, by what they are called (figure 5 of the paper)."""
     figure, panels = _stack(section, len(slides))
     strain = np.concatenate([slide.end.plastic_strain for slide in slides.values()])
     limits = (0.0, upper_limit(strain))
     for panel, slide in zip(panels, slides.values(), strict=True):
         end = slide.end
-        particles = section.draw(panel, end.x, end.z, end.plastic_strain, "magma_r", limits, MOVED)
+        particles = section.draw(panel, end.x, end.y, end.plastic_strain, "magma_r", limits, MOVED)
         section.mark_runout(panel, end.runout)
     letter(panels, [f"{called}: realization {slide.realization}" for called, slide in slides.items()])
     _colour_bar(figure, panels, particles, "plastic strain (-)", extend="max")

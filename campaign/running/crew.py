@@ -1,0 +1,66 @@
+"""Who computes: what a campaign asks of its ranks, and the crew of one that needs no MPI."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple, Protocol
+
+from campaign.running.dispatcher import Dispatcher
+from campaign.running.stop_request import StopRequest
+from campaign.running.worker import Interrupt, Worker
+from campaign.simulation.contract import PreparedGround
+from campaign.statistics.tally import Report
+from campaign.storage.attempts import Attempts
+from campaign.storage.record_store import RecordStore
+
+
+class Order(NamedTuple):
+    """What every rank is told before realizations are handed out."""
+
+    ground: PreparedGround
+    directory: Path  # of the records
+    timeout: float  # s, of a realization
+    job_end: float  # s since the epoch
+
+
+class Crew(Protocol):
+    """Some ranks that compute realizations."""
+
+    @property
+    def size(self) -> int:
+        """Number of ranks."""
+
+    def compute(self, order: Order, dispatcher: Dispatcher, aside: Callable[[], None]) -> None:
+        """Compute what the dispatcher hands out until it has no more, and call `aside` again and again meanwhile."""
+
+
+class Alone:
+    """One rank: this process.
+
+    Parameters
+    ----------
+    stop
+        Asked whether to go on.
+    """
+
+    size = 1
+
+    def __init__(self, stop: StopRequest) -> None:
+        self._stop = stop
+
+    def compute(self, order: Order, dispatcher: Dispatcher, aside: Callable[[], None]) -> None:
+        """Compute one realization after another."""
+        worker = worker_of(order, 0, self._stop, aside)
+        work(worker, dispatcher.exchange(Report(None)), dispatcher.exchange)
+        aside()
+
+
+def worker_of(order: Order, rank: int, stop: StopRequest, aside: Callable[[], None]) -> Worker:
+    """Return a rank's worker for an order; `aside` is called from within its time loop."""
+    interrupt = Interrupt(stop, order.job_end, order.timeout, aside)
+    return Worker(order.ground, RecordStore(order.directory), Attempts(order.directory), rank, interrupt)
+
+
+def work(worker: Worker, realization: int | None, exchange: Callable[[Report], int | None]) -> None:
+    """Run realizations, the given one first, until the exchange has no next."""
+    while realization is not None:
+        realization = exchange(worker.run(realization))

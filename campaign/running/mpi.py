@@ -1,0 +1,225 @@
+"""The campaign under MPI: every rank runs whole realizations alone, rank 0 hands them out and computes too.
+
+Rank 0 reads the scene, prepares what all realizations share, and scatters the first ids. From then on no collective
+operation joins the ranks: each sends a report when it has finished and is sent its next id. Rank 0 answers from a
+thread, or, where the MPI library allows no threads, from within its own time loop. Nobody waits in a blocking call,
+which would burn a core and hold back signals.
+"""
+
+import os
+import sys
+import threading
+import time
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from mpi4py import MPI
+
+from campaign.errors import CampaignError
+from campaign.exit_codes import ExitCode
+from campaign.running import launcher
+from campaign.running.campaign_directory import WriteReport, opened
+from campaign.running.crew import Order, work, worker_of
+from campaign.running.dispatcher import Dispatcher
+from campaign.running.runner import conduct
+from campaign.running.stop_request import StopRequest, listening
+from campaign.scene import Scene
+from campaign.simulation.contract import Prepare
+from campaign.statistics.tally import Report
+
+REPORT, ANSWER = 1, 2
+
+PAUSE = 0.002
+"""Seconds between two looks for a message."""
+
+
+def run_on_ranks(
+    read_scene: Callable[[], Scene],
+    out: Path | None,
+    prepare: Prepare,
+    write_report: WriteReport | None = None,
+    allow_drift: bool = False,
+) -> ExitCode:
+    """Run a campaign on all ranks of this MPI job, or continue it.
+
+    Parameters
+    ----------
+    read_scene
+        Called on rank 0.
+    out
+        The results directory; None for `campaign-NAME` after the scene.
+    prepare
+        Computes what realizations share; called on rank 0.
+    write_report
+        Makes the report when the results are written.
+    allow_drift
+        Whether to continue what another version of the solver began.
+    """
+    comm = MPI.COMM_WORLD
+    with _ending_all_ranks(comm), listening() as stop:
+        if sentence := launcher.mismatch(comm.size, os.environ):
+            print(sentence, file=sys.stderr, flush=True)
+            return ExitCode.REFUSED
+        if comm.rank > 0:
+            return _follow(comm, stop)
+        code = _lead(Ranks(comm, stop), stop, read_scene, out, prepare, write_report, allow_drift)
+        _share(comm, None)
+        return _agree(comm, code)
+
+
+def _lead(
+    ranks: "Ranks",
+    stop: StopRequest,
+    read_scene: Callable[[], Scene],
+    out: Path | None,
+    prepare: Prepare,
+    write_report: WriteReport | None,
+    allow_drift: bool,
+) -> ExitCode:
+    try:
+        scene = read_scene()
+        with opened(scene, out or Path(f"campaign-{scene.name}"), ranks.size, allow_drift) as directory:
+            return conduct(directory, prepare, ranks, stop, write_report)
+    except CampaignError as refusal:
+        print(refusal, file=sys.stderr, flush=True)
+        return ExitCode.REFUSED
+
+
+def _follow(comm: MPI.Comm, stop: StopRequest) -> ExitCode:
+    while (order := _share(comm, None)) is not None:
+        worker = worker_of(order, comm.rank, stop, lambda: None)
+        work(worker, comm.scatter(None), lambda report: _ask(comm, report))
+    return _agree(comm, None)
+
+
+class Ranks:
+    """The crew of all ranks, as rank 0 sees it."""
+
+    def __init__(self, comm: MPI.Comm, stop: StopRequest) -> None:
+        self._comm = comm
+        self._stop = stop
+
+    @property
+    def size(self) -> int:
+        """Number of ranks."""
+        return self._comm.size
+
+    def compute(self, order: Order, dispatcher: Dispatcher, aside: Callable[[], None]) -> None:
+        """Hand out realizations to all ranks, this one included, until there are no more."""
+        _share(self._comm, order)
+        first = [dispatcher.exchange(Report(None)) for _ in range(self.size)]
+        service = Service(self._comm, first, dispatcher.exchange, aside)
+        worker = worker_of(order, 0, self._stop, service.poll)
+        work(worker, self._comm.scatter(first), dispatcher.exchange)
+        service.finish()
+
+
+def _ask(comm: MPI.Comm, report: Report) -> int | None:
+    comm.send(report, dest=0, tag=REPORT)
+    while not comm.iprobe(source=0, tag=ANSWER):
+        time.sleep(PAUSE)
+    answer: int | None = comm.recv(source=0, tag=ANSWER)
+    return answer
+
+
+class Service:
+    """Rank 0's answers to the other ranks, and what else it does on the side.
+
+    Parameters
+    ----------
+    first
+        The first realization of each rank; one that got None will not ask for more.
+    exchange
+        Turns a report into the next realization.
+    aside
+        Called again and again.
+    """
+
+    def __init__(
+        self,
+        comm: MPI.Comm,
+        first: list[int | None],
+        exchange: Callable[[Report], int | None],
+        aside: Callable[[], None],
+    ) -> None:
+        self._comm = comm
+        self._exchange = exchange
+        self._aside = aside
+        self._busy = sum(realization is not None for realization in first[1:])
+        self._closing = threading.Event()
+        self._thread: threading.Thread | None = None
+        if MPI.Query_thread() == MPI.THREAD_MULTIPLE:
+            self._thread = threading.Thread(target=self._serve_on, name="service", daemon=True)
+            self._thread.start()
+
+    def poll(self) -> None:
+        """Answer who is waiting, unless a thread does; called from rank 0's time loop."""
+        if self._thread is None:
+            self._serve()
+
+    def finish(self) -> None:
+        """Answer until all ranks have been told that there is no more."""
+        self._closing.set()
+        if self._thread is None:
+            self._serve_on()
+        else:
+            self._thread.join()
+
+    def _serve_on(self) -> None:
+        while self._busy or not self._closing.is_set():
+            self._serve()
+            time.sleep(PAUSE)
+
+    def _serve(self) -> None:
+        status = MPI.Status()
+        while self._comm.iprobe(source=MPI.ANY_SOURCE, tag=REPORT, status=status):
+            source = status.Get_source()
+            realization = self._exchange(self._comm.recv(source=source, tag=REPORT))
+            self._busy -= realization is None
+            self._comm.send(realization, dest=source, tag=ANSWER)
+        self._aside()
+
+
+def _share(comm: MPI.Comm, order: Order | None) -> Order | None:
+    """Send rank 0's order to all ranks; None sends them home."""
+    _gather_round(comm)
+    shared: Order | None = comm.bcast(order)
+    return shared
+
+
+def _agree(comm: MPI.Comm, code: ExitCode | None) -> ExitCode:
+    """End all ranks with rank 0's exit code, since a launcher may report any of them."""
+    _gather_round(comm)
+    agreed: ExitCode = comm.bcast(code)
+    return agreed
+
+
+def _gather_round(comm: MPI.Comm) -> None:
+    """Wait for all ranks without burning a core."""
+    request = comm.Ibarrier()
+    while not request.Test():
+        time.sleep(5 * PAUSE)
+
+
+@contextmanager
+def _ending_all_ranks(comm: MPI.Comm) -> Iterator[None]:
+    """End all ranks when one ends in an exception, which would otherwise wait in MPI_Finalize for ever.
+
+    Any exception counts, `SystemExit` and `KeyboardInterrupt` included, and so does one in a thread.
+    """
+
+    def abort(error: BaseException | None) -> None:
+        traceback.print_exception(error)
+        sys.stderr.flush()
+        comm.Abort(ExitCode.INTERNAL_ERROR)
+
+    in_threads, threading.excepthook = threading.excepthook, lambda raised: abort(raised.exc_value)
+    try:
+        yield
+    except BaseException as error:
+        abort(error)
+        raise
+    finally:
+        threading.excepthook = in_threads

@@ -1,0 +1,174 @@
+"""The ground that all realizations of a scene share, and the door to each of them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from campaign.errors import RefusalError
+from campaign.fields.strengths import Strengths, StrengthSampler, strength_sampler
+from campaign.record import Record
+from campaign.scene.scene import Scene
+from campaign.seeds import BASELINE
+from campaign.simulation.realization import never, nothing, simulate
+from campaign.simulation.solver_model import Array, column_edges, model_of, output_times
+from solver.filling import fill_ground
+from solver.in_situ import NotSettledError, in_situ_state
+from solver.march import March
+from solver.model import Model
+from solver.particles import Particles, copy_particles
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@dataclass(frozen=True)
+class Ground:
+    """What all realizations of a scene share.
+
+    Parameters
+    ----------
+    scene : Scene
+    model : solver.model.Model
+        The scene as the solver sees it.
+    lattice : Particles
+        The particles on their lattice, where they read the random field.
+    in_situ : Particles
+        The same particles when strength is released: at rest under gravity, or unloaded for a gravity ramp.
+    sampler : StrengthSampler
+        Draws the strengths of a realization.
+    """
+
+    scene: Scene
+    model: Model
+    lattice: Particles
+    in_situ: Particles
+    sampler: StrengthSampler
+
+    @cached_property
+    def coordinates(self) -> dict[str, Array]:
+        """Arrays "time" (s), "x" (m, centres of the columns of the deposit), "particle_x" and "particle_y" (m)."""
+        edges, numerics = column_edges(self.model), self.scene.numerics
+        return {
+            "time": output_times(numerics.end_time, numerics.output_interval),
+            "x": 0.5 * (edges[1:] + edges[:-1]),
+            "particle_x": self.lattice.x,
+            "particle_y": self.lattice.y,
+        }
+
+    @property
+    def n_particles(self) -> int:
+        """Number of particles."""
+        return self.lattice.x.size
+
+    @property
+    def toe_x(self) -> float:
+        """Place of the initial toe in m."""
+        return self.model.surface.toe[0]
+
+    def strengths(self, realization: int) -> "xr.Dataset":
+        """Return the peak strengths of a realization on the reference grid of the random field.
+
+        Parameters
+        ----------
+        realization : int
+            Its id, 0 or more; -1 for mean strengths everywhere.
+
+        Returns
+        -------
+        xarray.Dataset
+            `cohesion` (Pa) and `friction_angle` (rad), each (y, x), with coordinates in m; NaN outside the ground
+            where the sampler leaves it out.
+        """
+        return self.draw(realization).to_dataset()
+
+    def simulate(
+        self,
+        realization: int,
+        interrupt: Callable[[], bool] = never,
+        observe: Callable[[March], None] = nothing,
+    ) -> Record:
+        """Simulate a realization from the release of strength to rest.
+
+        Parameters
+        ----------
+        realization : int
+            Its id, 0 or more; -1 for mean strengths everywhere.
+        interrupt : callable
+            Asked at every output time whether to leave.
+        observe : callable
+            Sees the march at every output time.
+
+        Raises
+        ------
+        campaign.simulation.contract.Interrupted
+            If `interrupt` says so.
+        campaign.errors.SamplerError
+            If the realization has no valid strengths.
+        """
+        return simulate(
+            self.model, self.released(realization), self.coordinates["time"], realization, interrupt, observe
+        )
+
+    def simulate_mean(self) -> Record:
+        """Simulate the deterministic run, with mean strengths everywhere."""
+        return self.simulate(BASELINE)
+
+    def draw(self, realization: int) -> Strengths:
+        """Draw the strengths of a realization on the reference grid."""
+        return self.sampler.draw(self.scene.campaign.seed, realization)
+
+    def released(self, realization: int) -> Particles:
+        """Return the in-situ state with the peak strengths of a realization; nowhere is peak below residual."""
+        within = np.minimum(self.lattice.x, self.model.surface.width)  # a wall may stand beyond by part of a cell
+        cohesion, friction_angle = self.draw(realization).at(within, self.lattice.y)
+        soil = self.model.soil
+        return self.in_situ._replace(
+            cohesion=np.maximum(cohesion, soil.cohesion_residual),
+            friction_angle=np.maximum(friction_angle, soil.friction_residual),
+        )
+
+
+def prepare(scene: Scene, directory: Path | None = None) -> Ground:
+    """Compute what all realizations of a scene share, the in-situ state above all.
+
+    Parameters
+    ----------
+    scene : Scene
+    directory : Path, optional
+        Where the field sampler may keep a large factor; without one it is held in memory.
+
+    Raises
+    ------
+    RefusalError
+        If the ground does not come to rest under its own weight.
+    SamplerError
+        If the sampler cannot draw the scene's field.
+    """
+    model = model_of(scene)
+    lattice = fill_ground(model.surface, model.cell_size, model.particles_per_cell, model.density)
+    in_situ = _loaded(model) if scene.numerics.gravity == "release" else copy_particles(lattice)
+    return Ground(scene, model, lattice, in_situ, _sampler(scene, model, directory))
+
+
+def _loaded(model: Model) -> Particles:
+    try:
+        return in_situ_state(model)
+    except NotSettledError as error:
+        raise RefusalError(str(error)) from error
+
+
+def _sampler(scene: Scene, model: Model, directory: Path | None) -> StrengthSampler:
+    surface = model.surface
+    return strength_sampler(
+        scene.field,
+        scene.soil.cohesion,
+        scene.soil.friction_angle,
+        surface.width,
+        surface.top,
+        directory,
+        soil=lambda x, y: y < surface.height_at(x),
+    )
