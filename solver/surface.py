@@ -22,6 +22,16 @@ class Surface(NamedTuple):
         return float(self.y.max())
 
     @property
+    def relief(self) -> float:
+        """Difference in m between the highest and the lowest elevation."""
+        return float(np.ptp(self.y))
+
+    @property
+    def area(self) -> float:
+        """Area in m2 of the ground under the surface."""
+        return float(np.sum(np.diff(self.x) * 0.5 * (self.y[1:] + self.y[:-1])))
+
+    @property
     def toe(self) -> tuple[float, float]:
         """Place ``(x, y)`` in m where the surface reaches the level of its right end for the first time."""
         level = self.y[-1]

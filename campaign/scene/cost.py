@@ -1,9 +1,7 @@
 """What a campaign will cost, from its scene alone."""
 
-import math
-
 from campaign.scene import Scene
-from campaign.scene.sections import Geometry
+from campaign.scene.ground_surface import surface_of
 from campaign.terminal import duration
 from solver.constants import STANDARD_GRAVITY
 from solver.elastic import bulk_modulus, p_wave_speed, shear_modulus
@@ -49,7 +47,7 @@ def speed(scene: Scene) -> float:
 
 def particle_count(scene: Scene) -> int:
     """Return the approximate number of particles: the area of the ground over that of a particle."""
-    return round(_area(scene.geometry) / scene.numerics.cell**2 * scene.numerics.particles_per_cell)
+    return round(surface_of(scene.geometry).area / scene.numerics.cell**2 * scene.numerics.particles_per_cell)
 
 
 def step_count(scene: Scene) -> float:
@@ -63,13 +61,3 @@ def time_step(scene: Scene) -> float:
     density = scene.soil.unit_weight / STANDARD_GRAVITY
     wave_speed = p_wave_speed(bulk_modulus(*constants), shear_modulus(*constants), density)
     return stable_step(scene.numerics.courant, scene.numerics.cell, wave_speed, 0.0)
-
-
-def _area(geometry: Geometry) -> float:
-    if geometry.surface is not None:
-        points = zip(geometry.surface, geometry.surface[1:], strict=False)
-        return sum((x2 - x1) * (z1 + z2) / 2 for (x1, z1), (x2, z2) in points)
-    slope = geometry.slope
-    assert slope is not None
-    run = slope.height / math.tan(slope.angle)
-    return slope.foundation * (slope.crest + run + slope.plain) + slope.height * (slope.crest + run / 2)

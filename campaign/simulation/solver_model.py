@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from campaign.scene.ground_surface import surface_of
 from campaign.scene.scene import Scene
-from campaign.scene.sections import Geometry
 from solver.basis import half_length_in_cells
 from solver.constants import STANDARD_GRAVITY
 from solver.grid import whole_cells
@@ -12,18 +12,8 @@ from solver.internal_length import coarse_rate_factor
 from solver.model import Model, make_soil
 from solver.slide import Slide
 from solver.step import LOCKING, STRESS_UPDATES, Scheme
-from solver.surface import Surface, slope_surface
 
 Array = NDArray[np.float64]
-
-
-def surface_of(geometry: Geometry) -> Surface:
-    """Return the ground surface of a scene."""
-    if geometry.slope is not None:
-        slope = geometry.slope
-        return slope_surface(slope.height, slope.angle, slope.crest, slope.plain, slope.foundation)
-    points = np.array(geometry.surface, dtype=float)
-    return Surface(points[:, 0].copy(), points[:, 1].copy())
 
 
 def model_of(scene: Scene) -> Model:

@@ -11,7 +11,8 @@ from matplotlib.ticker import MaxNLocator
 
 from campaign.report.figures.style import BLACK, ORANGE
 from campaign.scene import Scene
-from campaign.simulation.solver_model import Array, surface_of
+from campaign.scene.ground_surface import surface_of
+from campaign.simulation.solver_model import Array
 from solver.surface import Surface
 
 MARGIN = 0.08

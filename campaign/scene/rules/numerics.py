@@ -1,6 +1,7 @@
 """The mesh must see the slope, the scheme be stable, and the times follow each other."""
 
-from campaign.scene.rules.measures import Points, relief
+from campaign.scene.ground_surface import surface_through
+from campaign.scene.rules.measures import Points
 from campaign.scene.rules.rule import Rules
 from solver.timestep import LARGEST_COURANT
 
@@ -23,7 +24,7 @@ def _cells_of_height(cell: float, height: float) -> str | None:
 def _cells_of_relief(cell: float, surface: Points | None) -> str | None:
     if surface is None:
         return None
-    return _cells_of_height(cell, relief(surface))
+    return _cells_of_height(cell, surface_through(surface).relief)
 
 
 @RULES.on("numerics.courant", "numerics.basis", "numerics.stress_update")

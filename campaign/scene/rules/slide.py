@@ -1,6 +1,7 @@
 """A slope can fail, and has a sliding mass when it has."""
 
-from campaign.scene.rules.measures import Points, relief
+from campaign.scene.ground_surface import surface_through
+from campaign.scene.rules.measures import Points
 from campaign.scene.rules.rule import Rules
 
 RULES = Rules()
@@ -15,7 +16,7 @@ def _failure_within_height(failed: float, height: float) -> str | None:
 
 @RULES.on("slide.failed", "geometry.surface")
 def _failure_within_relief(failed: float, surface: Points | None) -> str | None:
-    return None if surface is None else _failure_within_height(failed, relief(surface))
+    return None if surface is None else _failure_within_height(failed, surface_through(surface).relief)
 
 
 @RULES.on("slide.displaced", "slide.failed")
