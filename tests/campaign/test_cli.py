@@ -1,15 +1,11 @@
 """The command line: what it understands, what it answers, and its exit codes."""
 
-import math
 import subprocess
 import sys
 
 import pytest
 
 from campaign import cli
-from campaign.running import walltime
-from campaign.running.launcher import mismatch
-from campaign.running.stop_request import ECHO, StopRequest
 
 
 @pytest.fixture(autouse=True)
@@ -80,40 +76,3 @@ def test_a_directory_without_a_campaign_is_refused(command, tmp_path, capsys):
 def test_neither_mpi_nor_numpy_is_needed_to_read_the_command_line():
     program = "import sys, campaign.cli; sys.exit(bool({'mpi4py', 'numpy', 'matplotlib'} & set(sys.modules)))"
     assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
-
-
-@pytest.mark.parametrize(
-    ("text", "seconds"),
-    [("45", 45), ("1:30", 90), ("2:00:01", 7201), ("1-00:00:10", 86410), ("UNLIMITED", math.inf), ("", math.inf)],
-)
-def test_slurms_times_are_read(text, seconds):
-    """Formats of squeue's %L, from its manual."""
-    assert walltime.remaining(text) == seconds
-
-
-@pytest.mark.parametrize(
-    ("size", "environment", "refused"),
-    [
-        (1, {}, False),
-        (4, {"PMI_SIZE": "4"}, False),
-        (1, {"PMI_SIZE": "1", "SLURM_STEP_NUM_TASKS": "2"}, False),
-        (1, {"SLURM_NTASKS": "4"}, False),
-        (1, {"PMI_SIZE": "2"}, True),
-        (1, {"SLURM_STEP_NUM_TASKS": "4"}, True),
-    ],
-)
-def test_a_lone_rank_of_many_is_noticed(size, environment, refused):
-    """Under hydra in a batch job SLURM_STEP_NUM_TASKS counts nodes: the launcher's own count comes first."""
-    assert bool(mismatch(size, environment)) is refused
-
-
-def test_the_second_interrupt_stops_now_but_an_echo_of_the_first_does_not(monkeypatch):
-    clock = [100.0]
-    monkeypatch.setattr("campaign.running.stop_request.time.monotonic", lambda: clock[0])
-    stop = StopRequest()
-    stop.receive(2)
-    stop.receive(2)
-    assert (stop.drain, stop.now) == (True, False)
-    clock[0] += 2 * ECHO
-    stop.receive(2)
-    assert stop.now

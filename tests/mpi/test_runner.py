@@ -1,6 +1,6 @@
 """The dataset does not know how many ranks computed it, nor how often they were killed.
 
-Campaigns run under the environment's own mpirun, with a stand-in for the solver (`stand_in.py`).
+Campaigns run under the environment's own mpirun, with a stand-in for the solver (`helpers/stand_in.py`).
 """
 
 import os
@@ -18,7 +18,7 @@ import xarray as xr
 from campaign.commands.status import status
 
 MPIRUN = Path(sys.prefix) / "bin" / "mpirun"
-STAND_IN = Path(__file__).with_name("stand_in.py")
+STAND_IN = Path(__file__).parents[1] / "helpers" / "stand_in.py"
 
 pytestmark = pytest.mark.skipif(not MPIRUN.exists(), reason="needs the mpich extra")
 

@@ -1,6 +1,6 @@
 """The boundaries of the stability atlas, each against theory."""
 
-import laws
+import law_cases
 import numpy as np
 import pytest
 import space
@@ -59,12 +59,12 @@ def test_linear_mpm_does_not_converge_where_particles_cross_cells():
 
 @pytest.mark.parametrize("basis", BASES)
 def test_one_particle_in_the_middle_of_a_cell_does_not_feel_a_chessboard(basis):
-    assert laws.chessboard_felt(basis, 0.5) == pytest.approx(0.0, abs=1e-12)
+    assert law_cases.chessboard_felt(basis, 0.5) == pytest.approx(0.0, abs=1e-12)
 
 
 def test_one_of_four_particles_feels_a_quarter_of_it():
     """Weights 3/4 and 1/4 in each direction: (3/4 - 1/4)^2."""
-    assert laws.chessboard_felt("gimp", 0.25) == pytest.approx(0.25)
+    assert law_cases.chessboard_felt("gimp", 0.25) == pytest.approx(0.25)
 
 
 @pytest.mark.parametrize("basis", BASES)
@@ -86,23 +86,23 @@ def test_local_softening_depends_on_the_mesh_unless_the_rate_is_scaled():
 
 @pytest.mark.parametrize("basis", BASES)
 def test_pic_is_a_viscosity(basis):
-    assert laws.pic_constant(basis) == pytest.approx(laws.expected_pic_constant(basis), rel=0.02)
+    assert law_cases.pic_constant(basis) == pytest.approx(law_cases.expected_pic_constant(basis), rel=0.02)
 
 
 @pytest.mark.parametrize("steps", [200, 2000])
 def test_first_order_spin_grows_as_predicted(steps):
-    assert laws.first_order_growth(steps) == pytest.approx(np.exp(8.0 * np.pi**2 / steps), rel=1e-3)
-    assert laws.cayley_growth(steps) == pytest.approx(1.0, abs=1e-11)
+    assert law_cases.first_order_growth(steps) == pytest.approx(np.exp(8.0 * np.pi**2 / steps), rel=1e-3)
+    assert law_cases.cayley_growth(steps) == pytest.approx(1.0, abs=1e-11)
 
 
 def test_squared_exponential_has_no_cholesky_factor_on_a_fine_grid():
-    assert laws.has_cholesky_factor(0.3)
-    assert not laws.has_cholesky_factor(0.15)
+    assert law_cases.has_cholesky_factor(0.3)
+    assert not law_cases.has_cholesky_factor(0.15)
 
 
 def test_chi_square_intervals_do_not_hold_where_bonetts_do():
     """False alarms: the standard error of a coverage from 2000 campaigns is 1 %, four of them are allowed."""
-    chi_square, bonett = laws.coverages()
+    chi_square, bonett = law_cases.coverages()
     assert chi_square == pytest.approx(0.74, abs=0.04)
     assert bonett > 0.88
 

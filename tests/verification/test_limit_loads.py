@@ -9,11 +9,10 @@ import math
 import numpy as np
 import pytest
 from driver import Row
-from quasi_static import bearing_pressure, factor_of_safety, quasi_static_model
+from quasi_static import PRANDTL, bearing_pressure, factor_of_safety, quasi_static_model
 
 from solver.surface import Surface, slope_surface
 
-PRANDTL = 2.0 + math.pi
 UNIT_WEIGHT = 20e3
 
 

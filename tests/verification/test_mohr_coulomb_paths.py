@@ -8,7 +8,6 @@ With the out-of-plane stress in the middle, ``S = (s_xx + s_yy) / 2``, ``R = hyp
 The solver returns to the surface with the strength of the increment's start, so its error is of first order.
 """
 
-import law_points  # noqa: F401  -- the next comes from there
 import numpy as np
 import pytest
 from driver import Row, observed_orders, orders_row

@@ -4,7 +4,6 @@ The oracle tries all sets of active planes without any thought of regions (``koi
 the return is also the projection on the elastic domain in the energy norm, a non-negative least squares fit.
 """
 
-import law_points  # noqa: F401  -- the next comes from there
 import numpy as np
 import pytest
 from driver import Row

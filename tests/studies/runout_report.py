@@ -21,7 +21,7 @@ LARGEST_LAST_CHANGE = 0.05  # of the run-out, when the cell is halved for the la
 INTRODUCTION = """\
 # How far from converged the run-out of `ma2023` is
 
-Made by `python tests/verification/runout.py`. Deterministic runs; run-out is `final_runout_mass` in m.
+Made by `python tests/studies/runout.py`. Deterministic runs; run-out is `final_runout_mass` in m.
 
 ## Cell size
 

@@ -21,6 +21,7 @@ from solver.step import LOCKING, STRESS_UPDATES, Scheme, accelerate, advance, al
 from solver.surface import Surface
 from solver.timestep import stable_step
 
+PRANDTL = 2.0 + math.pi  # exact limit of a strip load over the cohesion, on Tresca ground
 YOUNG_MODULUS, POISSON_RATIO = 1e9, 0.3
 COURANT = 0.5
 STEPS = 100  # between two looks

@@ -1,6 +1,6 @@
 """How far from converged the run-out of ``ma2023`` is: cells, particles, time step, lattice, domain, release and end.
 
-    python tests/verification/runout.py
+    python tests/studies/runout.py
 
 computes what ``runout.json`` lacks (two hours on two cores if it is empty, most of it the cell of 0.125 m) and writes
 ``runout.md`` and ``runout.png``. All runs are deterministic, with mean strengths; run-out is ``final_runout_mass``.

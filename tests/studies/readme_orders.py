@@ -1,6 +1,6 @@
 """Copy the orders of convergence from the ladder into README.
 
-python tests/verification/readme_orders.py
+python tests/studies/readme_orders.py
 """
 
 from pathlib import Path

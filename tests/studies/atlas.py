@@ -1,29 +1,30 @@
 """The stability atlas: run every method where it fails.
 
-``python tests/stability/atlas.py tests/stability/atlas.png > tests/stability/atlas.md``
+PYTHONPATH=tests/helpers python tests/studies/atlas.py > tests/studies/atlas.md
 """
 
-import sys
+from pathlib import Path
 from typing import NamedTuple
 
-import laws
+import law_cases
 import space
 import spectrum
 import time_step
 from bodies import BASES, crossing_bar, displacement_error, flying_block
 from driver import SCHEMES
-from quasi_static import bearing_pressure
+from quasi_static import PRANDTL, bearing_pressure
 from sweep import COURANTS, draw, sweep
-from test_limit_loads import PRANDTL
 from whole_runs import SHORTLY_BEYOND, UNSTABLE, is_stopped, simulate, soft_ground
 
 from solver.timestep import LARGEST_COURANT
 
+FIGURE = Path(__file__).with_suffix(".png")
+
 INTRODUCTION = """# The stability atlas
 
 Where the methods of this solver, and of others, fail. Each line gives the condition, the symptom, the boundary that is
-expected from the references or derived, the one measured, and what protects a user there. `test_atlas.py` and
-`test_guards.py` hold most of the lines as tests; `atlas.py` runs all of them and makes this page and its figure.
+expected from the references or derived, the one measured, and what protects a user there. The tests in
+`tests/stability` hold most of the lines; `atlas.py` runs all of them and makes this page and its figure.
 
 ![Energy that nine schemes create in two elastic bodies, against the Courant number](atlas.png)
 
@@ -100,7 +101,7 @@ def crossing_entry():
 
 def chessboard_entry():
     """Return the line of one particle in a cell."""
-    alone, one_of_four = laws.chessboard_felt("gimp", 0.5), laws.chessboard_felt("gimp", 0.25)
+    alone, one_of_four = law_cases.chessboard_felt("gimp", 0.5), law_cases.chessboard_felt("gimp", 0.25)
     return Entry(
         "one particle in the middle of each cell, any basis",
         "forces that alternate from node to node move no particle and never fade: no rest under gravity",
@@ -148,26 +149,26 @@ def law_entries():
         yield Entry(
             f"{basis}: share `b` of PIC in the velocity update",
             "viscosity `a b h^2 / dt`, larger for smaller steps",
-            f"a = 1/6 + (l_p / h)^2 / 3 = {laws.expected_pic_constant(basis):.3f}",
-            f"{laws.pic_constant(basis):.3f}",
+            f"a = 1/6 + (l_p / h)^2 / 3 = {law_cases.expected_pic_constant(basis):.3f}",
+            f"{law_cases.pic_constant(basis):.3f}",
             "half a percent of energy destroyed ends the run",
         )
-    growth = ", ".join(f"{laws.first_order_growth(steps):.3f}" for steps in (200, 2000))
+    growth = ", ".join(f"{law_cases.first_order_growth(steps):.3f}" for steps in (200, 2000))
     yield Entry(
         "first-order spin, one turn in 200 and 2000 steps",
         "the deviator grows",
         "exp(8 pi^2 / n) = 1.484, 1.040",
         growth,
-        f"Cayley's rotation: {abs(laws.cayley_growth(200) - 1.0):.0e}",
+        f"Cayley's rotation: {abs(law_cases.cayley_growth(200) - 1.0):.0e}",
     )
     yield Entry(
         "Cholesky factor of a squared-exponential correlation, 150 points on a line",
         "indefinite by rounding",
         "finer than about 0.25 autocorrelation distances",
-        f"finer than {laws.finest_factorised():.2f}",
+        f"finer than {law_cases.finest_factorised():.2f}",
         "`SamplerError`, which names the exact sampler",
     )
-    chi_square, bonett = laws.coverages()
+    chi_square, bonett = law_cases.coverages()
     yield Entry(
         "chi-square interval of a variance, lognormal values with COV 0.5, n = 100",
         "a 95 % interval that is none",
@@ -226,7 +227,7 @@ def main():
     print("|---|---|---|---|---|")
     for entry in entries(block, bar):
         print("| " + " | ".join(entry) + " |", flush=True)
-    draw({"Free block that flies over four cells": block, "Bar whose end swings by 1.2 cells": bar}, sys.argv[1])
+    draw({"Free block that flies over four cells": block, "Bar whose end swings by 1.2 cells": bar}, FIGURE)
 
 
 if __name__ == "__main__":

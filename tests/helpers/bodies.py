@@ -5,12 +5,11 @@ A free block and a fixed bar, as in the verification ladder, but with any basis 
 
 import warnings
 
-import ladder  # noqa: F401  -- the next two come from there
 import numpy as np
 from driver import B_SPLINE, LINEAR, SCHEMES, UGIMP, elastic_soil, grid_without_walls, lattice
-from test_vibrating_bar import FREQUENCY, PERIOD, PERIODS, fixed_free_bar, vibrate
-from test_vibrating_bar import MODULUS as BAR_MODULUS
-from test_vibrating_bar import SPEED as BAR_SPEED
+from vibrating_bar import FREQUENCY, PERIOD, PERIODS, fixed_free_bar, vibrate
+from vibrating_bar import MODULUS as BAR_MODULUS
+from vibrating_bar import SPEED as BAR_SPEED
 
 from solver import observables
 from solver.basis import half_length_in_cells

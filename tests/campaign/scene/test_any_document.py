@@ -1,0 +1,41 @@
+"""Whatever is written in a scene file, the answer is a list of sentences."""
+
+import copy
+from typing import Any
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scene_complaints import EXAMPLE, found_in
+
+from campaign.scene.document import key_lines
+from campaign.scene.sections import SceneFile
+
+JUNK = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.integers(-5, 5),
+    st.floats(),
+    st.sampled_from(["", "1 m", "-3 kPa", "gimp", "20 deg", "1e9 s", "kronecker"]),
+    st.lists(st.sampled_from([[], ["0 m", "1 m"], ["1 m"], 3, "a"]), max_size=3),
+    st.dictionaries(st.sampled_from(["mean", "height", "cell", "x"]), st.integers(), max_size=2),
+)
+KEYS = sorted({key[:n] for key in key_lines(EXAMPLE.text) for n in range(1, len(key) + 1)})
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(st.lists(st.tuples(st.sampled_from(KEYS), st.one_of(JUNK, st.just(...))), min_size=1, max_size=6))
+def test_whatever_is_written_the_answer_is_a_list_of_sentences(changes: list[tuple[tuple[str, ...], Any]]) -> None:
+    """Any keys replaced by anything or removed: never an exception, and every message ends as a sentence does."""
+    tables = copy.deepcopy(EXAMPLE.tables)
+    for (*sections, name), value in changes:
+        table: Any = tables
+        for section in sections:
+            table = table.get(section, {}) if isinstance(table, dict) else {}
+        if isinstance(table, dict):
+            table.pop(name, None)
+            if value is not ...:
+                table[name] = copy.deepcopy(value)
+    messages = found_in(tables)
+    assert all(message.endswith((".", "?")) for message in messages)
+    if not messages:
+        SceneFile.model_validate(tables)

@@ -1,0 +1,74 @@
+"""Values that contradict each other, or the method, are refused with a remedy."""
+
+from math import erfc, exp, log1p, sqrt
+
+import pytest
+from scene_complaints import any_complaints, complaint, found_in
+
+from campaign.scene import load_scene
+from campaign.scene.document import read_document
+from campaign.scene.rules.soil import EXTREME_QUANTILE, largest_allowed_cov
+
+
+def test_a_rotated_field_is_not_separable() -> None:
+    overrides = ("field.correlation=squared-exponential", "field.sampler=kronecker")
+    assert load_scene("ma2023", overrides).field.sampler == "kronecker"
+    assert "rotated by 30 deg" in complaint(*overrides, "field.angle=30 deg")
+
+
+def test_a_ramp_must_end_within_the_run() -> None:
+    load_scene("ma2023", ["numerics.ramp_time=11 s"])
+    assert "before gravity is whole" in complaint("numerics.gravity=ramp", "numerics.ramp_time=11 s")
+
+
+@pytest.mark.parametrize(("cov", "lowest"), [(0.1, -0.990), (0.2, -0.962), (0.3, -0.917), (0.5, -0.80)])
+def test_two_lognormal_fields_cannot_have_any_correlation(cov: float, lowest: float) -> None:
+    """The bound is (exp(-s^2) - 1) / COV^2: two comonotone lognormal variables of opposite sign."""
+    assert (exp(-log1p(cov**2)) - 1.0) / cov**2 == pytest.approx(lowest, abs=5e-4)
+    same = ("field.cross_correlation_of=lognormal", f"soil.cohesion.cov={cov}", f"soil.friction_angle.cov={cov}")
+    mean = "soil.friction_angle.mean=6 deg"
+    just_above, just_below = (f"field.cross_correlation={lowest + step}" for step in (0.001, -0.001))
+    refusals = [message for message in any_complaints(*same, mean, just_above) if "cross-correlation" in message]
+    assert refusals == []
+    assert any("can only have a cross-correlation between" in text for text in any_complaints(*same, mean, just_below))
+
+
+def test_the_cell_average_needs_a_narrow_basis() -> None:
+    """Limit loads with both are 5 % and more too low (verification/test_limit_loads)."""
+    text = complaint("numerics.basis=bspline", "numerics.locking=cell-average")
+    assert 'use the basis "gimp"' in text
+
+
+def test_the_time_step_suits_basis_and_stress_update() -> None:
+    """The limits are those that tests/stability measures."""
+    load_scene("ma2023", ["numerics.courant=0.9"])
+    assert "creates energy beyond 0.9; use at most that" in complaint("numerics.courant=0.95")
+    assert "beyond 0.4" in complaint("numerics.stress_update=usl")
+    assert "unstable at every" in complaint("numerics.basis=linear", "numerics.stress_update=usl")
+
+
+def test_a_single_particle_in_a_cell_never_rests() -> None:
+    one = "numerics.particles_per_cell=1"
+    load_scene("ma2023", [one, "numerics.gravity=ramp"])
+    assert "never comes to rest under its own weight" in complaint(one)
+
+
+def test_gaussian_fields_can_have_any_correlation() -> None:
+    strong = ("field.cross_correlation=-0.95", "soil.cohesion.cov=0.3", "soil.friction_angle.cov=0.3")
+    load_scene("ma2023", strong)
+    assert "between -0.917 and" in complaint(*strong, "field.cross_correlation_of=lognormal")
+
+
+def test_the_extreme_quantile_is_rare_in_a_field() -> None:
+    """1e5 values, were they independent, exceed it with a probability below 1 %; the bound solves for 90 deg."""
+    assert 1e5 * 0.5 * erfc(EXTREME_QUANTILE / sqrt(2.0)) < 0.01
+    s = sqrt(log1p(largest_allowed_cov(10.0, 90.0) ** 2))
+    assert 10.0 * exp(EXTREME_QUANTILE * s - s**2 / 2.0) == pytest.approx(90.0)
+
+
+def test_what_counts_as_a_slide_must_suit_the_height() -> None:
+    assert "slide.displaced" in complaint("slide.displaced=2 m")
+    assert "a slope of 15 m can fail without moving that far" in complaint("slide.failed=15 m")
+    column = [["0 m", "0.1 m"], ["0.2 m", "0.1 m"], ["0.2 m", "0 m"], ["0.8 m", "0 m"]]
+    (message,) = found_in(read_document("bui2008").tables | {"slide": {}, "geometry": {"surface": column}})
+    assert message.startswith("slide.failed (scene.toml) is not given, but a slope of 0.1 m can fail")
