@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from solver.filling import fill_ground
+from solver.march import run
 from solver.model import Model, make_soil
 from solver.step import STRESS_UPDATES, Scheme
 from solver.surface import slope_surface
@@ -30,3 +32,11 @@ def with_strength(particles, cohesion=COHESION, friction_angle=FRICTION_ANGLE):
     return particles._replace(
         cohesion=np.full(particles.x.size, cohesion), friction_angle=np.full(particles.x.size, friction_angle)
     )
+
+
+def fails_from(place):
+    """Return whether the march breaks off if a particle lies at ``place`` (m). A process of its own can import this."""
+    model = small_model(residual=2e3)
+    bad = with_strength(fill_ground(model.surface, model.cell_size, model.particles_per_cell, model.density))
+    bad.x[57] = place
+    return run(model, bad, np.linspace(0.0, 1.0, 11)).has_failed

@@ -5,11 +5,10 @@ from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 import pytest
-from small_slope import small_model, with_strength
+from small_slope import fails_from, small_model, with_strength
 
 from solver.basis import half_length_in_cells
 from solver.constants import STANDARD_GRAVITY
-from solver.filling import fill_ground
 from solver.in_situ import in_situ_state
 from solver.march import March, Outcome, RestDetector, run
 from solver.operations import GRAVITY_WORK
@@ -194,12 +193,6 @@ def test_energy_lost_to_the_scheme_is_noticed(start):
     assert march.loses_energy()
     march.blame_scheme()
     assert "numerics.flip" in march.reason
-
-
-def fails_from(place):
-    bad = with_strength(fill_ground(MODEL.surface, MODEL.cell_size, MODEL.particles_per_cell, MODEL.density))
-    bad.x[57] = place
-    return run(MODEL, bad, np.linspace(0.0, 1.0, 11)).has_failed
 
 
 def test_a_start_outside_the_grid_breaks_off_without_a_crash():
