@@ -21,9 +21,9 @@ def is_displaced(particles: Particles, start: Particles, slide: Slide) -> np.nda
 
 
 def slope_body(start: Particles, surface: Surface) -> np.ndarray:
-    """Return the mask (n,) of the particles that lie above the toe level before the slide."""
-    above: np.ndarray = start.y > surface.toe[1]
-    return above
+    """Return the mask (n,) of the particles that lie upslope of the toe before the slide, however deep."""
+    upslope: np.ndarray = start.x < surface.toe_x
+    return upslope
 
 
 def runout(particles: Particles, start: Particles, surface: Surface, slide: Slide) -> float:
@@ -32,8 +32,7 @@ def runout(particles: Particles, start: Particles, surface: Surface, slide: Slid
     Ground in front of the toe that is pushed or heaved does not count as run-out, only the material that comes over it.
     """
     front = is_displaced(particles, start, slide) & slope_body(start, surface)
-    toe_x = surface.toe[0]
-    return max(0.0, float(particles.x[front].max() - toe_x)) if front.any() else 0.0
+    return max(0.0, float(particles.x[front].max() - surface.toe_x)) if front.any() else 0.0
 
 
 def runout_mass(particles: Particles, start: Particles, surface: Surface, slide: Slide) -> float:
@@ -49,7 +48,7 @@ def runout_mass(particles: Particles, start: Particles, surface: Surface, slide:
     ahead = np.cumsum(area) - 0.5 * area
     if x.size == 0 or ahead[-1] < slide.front_area:
         return 0.0
-    return max(0.0, float(np.interp(slide.front_area, ahead, x)) - surface.toe[0])
+    return max(0.0, float(np.interp(slide.front_area, ahead, x)) - surface.toe_x)
 
 
 def sliding_volume(particles: Particles, start: Particles, slide: Slide) -> float:

@@ -10,6 +10,7 @@ class Surface(NamedTuple):
 
     x: np.ndarray  # (k,) m, not decreasing; equal neighbours are a vertical face
     y: np.ndarray  # (k,) m, above the base
+    toe_x: float = np.nan  # m, from which run-out is measured; level ground has none
 
     @property
     def width(self) -> float:
@@ -33,13 +34,8 @@ class Surface(NamedTuple):
 
     @property
     def toe(self) -> tuple[float, float]:
-        """Place ``(x, y)`` in m where the surface reaches the level of its right end for the first time."""
-        level = self.y[-1]
-        first = int(np.argmax(self.y <= level + 1e-9))
-        if first == 0:
-            return float(self.x[0]), float(level)
-        share = (self.y[first - 1] - level) / (self.y[first - 1] - self.y[first])
-        return float(self.x[first - 1] + share * (self.x[first] - self.x[first - 1])), float(level)
+        """Place ``(x, y)`` of the toe in m."""
+        return self.toe_x, float(self.height_at(np.array([self.toe_x]))[0])
 
     def height_at(self, x: np.ndarray) -> np.ndarray:
         """Return the elevation in m above each ``x``; on a vertical face that of the ground to its right."""
@@ -62,4 +58,36 @@ def slope_surface(height: float, angle: float, crest: float, plain: float, found
     """
     toe = crest + height / np.tan(angle)
     top = foundation + height
-    return Surface(np.array([0.0, crest, toe, toe + plain]), np.array([top, top, foundation, foundation]))
+    return Surface(np.array([0.0, crest, toe, toe + plain]), np.array([top, top, foundation, foundation]), float(toe))
+
+
+def foot_of_steepest_face(x: np.ndarray, y: np.ndarray) -> float:
+    """Return the place in m where the steepest face of a surface that descends to the right ends.
+
+    The face is the steepest stretch between two points that makes up half of the largest descent or more, so that a
+    step of the ground is none. Its foot is where the ground beyond it falls less than half as steeply.
+
+    Parameters
+    ----------
+    x, y : ndarray (k,)
+        Points of the surface in m, from left to right.
+
+    Raises
+    ------
+    ValueError
+        If the ground nowhere descends to the right.
+    """
+    drop = y[:, None] - y
+    run = x - x[:, None]
+    largest = np.max(np.where(run >= 0.0, drop, 0.0))
+    if not largest > 0.0:
+        raise ValueError("The ground nowhere descends to the right, where slides go; mirror it.")
+    is_face = (run >= 0.0) & (drop >= 0.5 * largest)
+    steepness = np.divide(drop, run, out=np.full_like(drop, np.inf), where=run > 0.0)
+    steepest = np.max(steepness[is_face])
+    # Of equally steep stretches the one that falls most is the whole face.
+    candidates = is_face & (steepness >= steepest * (1.0 - 1e-9) if np.isfinite(steepest) else np.isinf(steepness))
+    foot = int(np.unravel_index(np.argmax(np.where(candidates, drop, -np.inf)), drop.shape)[1])
+    while foot + 1 < x.size and y[foot] - y[foot + 1] > 0.5 * steepest * (x[foot + 1] - x[foot]):
+        foot += 1
+    return float(x[foot])

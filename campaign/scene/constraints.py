@@ -25,6 +25,10 @@ def _goes_forward(points: tuple[tuple[float, float], ...]) -> bool:
     return all(left <= right for (left, _), (right, _) in pairwise(points))
 
 
+def _descends(points: tuple[tuple[float, float], ...]) -> bool:
+    return any(left > right for (_, left), (_, right) in pairwise(points))
+
+
 POSITIVE = must("be greater than zero", lambda value: value > 0.0)
 NOT_NEGATIVE = must("not be negative", lambda value: value >= 0.0)
 
@@ -51,5 +55,6 @@ Profile = Annotated[
     must("start at x = 0", lambda points: points[0][0] == 0.0),
     must("go from left to right; no x may be less than the one before", _goes_forward),
     must("stay above the base, which is at elevation 0", lambda points: min(y for _, y in points) >= 0.0),
-    must("end lower than it starts, because the slide goes to the right; mirror it", lambda p: p[-1][1] < p[0][1]),
+    must("have a width; its last x must be greater than 0", lambda points: points[-1][0] > 0.0),
+    must("descend to the right somewhere, because slides go there; mirror it", _descends),
 ]

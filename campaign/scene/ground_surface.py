@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from campaign.scene.sections import Geometry
-from solver.surface import Surface, slope_surface
+from solver.surface import Surface, foot_of_steepest_face, slope_surface
 
 
 def surface_of(geometry: Geometry) -> Surface:
@@ -13,10 +13,18 @@ def surface_of(geometry: Geometry) -> Surface:
     if geometry.slope is not None:
         slope = geometry.slope
         return slope_surface(slope.height, slope.angle, slope.crest, slope.plain, slope.foundation)
-    return surface_through(geometry.surface or ())
+    return surface_through(geometry.surface or (), geometry.toe)
 
 
-def surface_through(points: Sequence[Sequence[float]]) -> Surface:
-    """Return the surface through points (x, elevation) in m, from left to right."""
-    coordinates = np.array(points, dtype=float)
-    return Surface(coordinates[:, 0].copy(), coordinates[:, 1].copy())
+def surface_through(points: Sequence[Sequence[float]], toe: float | None = None) -> Surface:
+    """Return the surface through points (x, elevation) in m, from left to right.
+
+    Parameters
+    ----------
+    points
+        Two or more.
+    toe
+        Place of the toe in m; the foot of the steepest face if not given.
+    """
+    x, y = np.array(points, dtype=float).T.copy()
+    return Surface(x, y, foot_of_steepest_face(x, y) if toe is None else toe)

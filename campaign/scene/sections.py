@@ -40,10 +40,11 @@ class Slope(Section):
 
 
 class Geometry(Section):
-    """The ground: either a slope, or a surface as points (x, elevation) in m above the fixed base."""
+    """The ground: either a slope, or a surface as points (x, elevation) in m above the fixed base, with its toe."""
 
     slope: Slope | None = None
     surface: Profile | None = None
+    toe: PositiveLength | None = None
 
 
 class Cohesion(Section):

@@ -67,7 +67,7 @@ class Ground:
     @property
     def toe_x(self) -> float:
         """Place of the initial toe in m."""
-        return self.model.surface.toe[0]
+        return self.model.surface.toe_x
 
     def strengths(self, realization: int) -> "xr.Dataset":
         """Return the peak strengths of a realization on the reference grid of the random field.
