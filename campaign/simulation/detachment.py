@@ -37,7 +37,7 @@ def detached_volume(particles: Particles, start: Particles, surface: Surface, gr
     grid : solver.grid.Grid
         Whose nodes join the particles; not modified.
     """
-    body = slope_body(start, surface)
+    body = slope_body(start, surface) & (start.y > surface.toe[1])
     if not body.any():
         return 0.0
     x, volume = particles.x[body], start.volume[body]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from solver.filling import fill_ground
-from solver.surface import Surface, slope_surface
+from solver.surface import Surface, foot_of_steepest_face, slope_surface
 
 
 def surface(*points):
@@ -25,13 +25,37 @@ def test_slope_has_its_toe_at_the_foot():
     assert PAPER.top == 19.0
 
 
-def test_toe_of_a_vertical_face_is_at_the_face():
-    assert surface((0, 9), (10, 9), (10, 4), (30, 4)).toe == (10.0, 4.0)
+@pytest.mark.parametrize(
+    ("points", "toe"),
+    [
+        pytest.param([(0, 9), (10, 9), (10, 4), (30, 4)], 10.0, id="vertical face"),
+        pytest.param([(0, 22), (20, 22), (35, 7), (75, 5)], 35.0, id="falling plain"),
+        pytest.param([(0, 22), (20, 22), (35, 7), (75, 6.99)], 35.0, id="plain that falls a centimetre"),
+        pytest.param([(0, 22), (20, 22), (35, 7), (75, 9)], 35.0, id="rising plain"),
+        pytest.param([(0, 19), (20, 19), (35, 4), (45, 4), (60, 10), (80, 10)], 35.0, id="valley"),
+        pytest.param([(0, 10), (10, 10), (16, 4), (40, 4), (60, 25)], 16.0, id="valley with a higher far side"),
+        pytest.param([(0, 20), (10, 20), (12, 19), (30, 12), (31, 11.8), (50, 11)], 30.0, id="edge, face, small step"),
+        pytest.param(
+            [(0, 30), (20, 30), (22, 28.5), (30, 20), (40, 12), (50, 8), (60, 6), (80, 5.5), (100, 5)],
+            40.0,
+            id="hollow slope that runs out in a fan",
+        ),
+    ],
+)
+def test_the_toe_is_the_foot_of_the_steepest_face(points, toe):
+    assert foot_of_steepest_face(*np.array(points, dtype=float).T) == toe
 
 
-def test_toe_is_where_the_surface_first_reaches_the_level_of_its_right_end():
-    """The surface may fall on below that level before it rises to it again."""
-    assert surface((0, 19), (20, 19), (37, 2), (50, 4)).toe == pytest.approx((35.0, 4.0))
+def test_the_foot_does_not_depend_on_how_finely_a_surface_is_drawn():
+    x = np.array([0.0, 20.0, 35.0, 75.0])
+    y = np.array([22.0, 22.0, 7.0, 5.0])
+    fine = np.union1d(x, np.linspace(0.0, 75.0, 151))
+    assert foot_of_steepest_face(fine, np.interp(fine, x, y)) == 35.0
+
+
+def test_ground_that_only_rises_has_no_foot():
+    with pytest.raises(ValueError, match="nowhere descends"):
+        foot_of_steepest_face(np.array([0.0, 10.0]), np.array([1.0, 2.0]))
 
 
 @pytest.mark.parametrize(

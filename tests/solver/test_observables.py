@@ -11,7 +11,7 @@ from solver.slide import PAPER
 from solver.step import allocate_workspace, spread_all
 from solver.surface import Surface
 
-CUT = Surface(np.array([0.0, 10.0, 10.0, 30.0]), np.array([8.0, 8.0, 4.0, 4.0]))  # toe at x = 10, y = 4
+CUT = Surface(np.array([0.0, 10.0, 10.0, 30.0]), np.array([8.0, 8.0, 4.0, 4.0]), 10.0)
 
 
 def start_and_now(x, y, shift, volume=1.0):
@@ -21,9 +21,9 @@ def start_and_now(x, y, shift, volume=1.0):
     return start, now
 
 
-def test_runout_is_the_advance_of_the_front_of_the_slope_body_beyond_the_toe():
+def test_runout_is_the_advance_of_the_front_of_the_ground_upslope_of_the_toe():
     start, now = start_and_now([9.0, 8.0, 12.0], [5.0, 6.0, 3.0], [3.0, 5.5, 9.0])
-    assert observables.runout(now, start, CUT, PAPER) == pytest.approx(3.5)  # not the third, which lay below the toe
+    assert observables.runout(now, start, CUT, PAPER) == pytest.approx(3.5)  # not the third, which lay beyond the toe
 
 
 def test_runout_counts_only_particles_displaced_more_than_a_tenth_of_a_metre():

@@ -31,7 +31,7 @@ def test_a_slope_or_a_surface_is_needed() -> None:
         ([["1 m", "19 m"], ["20 m", "4 m"]], "start at x = 0"),
         ([["0 m", "19 m"], ["20 m", "4 m"], ["10 m", "4 m"]], "go from left to right"),
         ([["0 m", "19 m"], ["20 m", "-1 m"]], "stay above the base"),
-        ([["0 m", "4 m"], ["20 m", "19 m"]], "end lower than it starts"),
+        ([["0 m", "4 m"], ["20 m", "19 m"]], "descend to the right somewhere"),
     ],
 )
 def test_a_surface_falls_from_left_to_right_above_the_base(surface: list[list[str]], expected: str) -> None:
@@ -58,6 +58,36 @@ def test_a_wrong_point_is_named_by_its_number() -> None:
 
 
 def test_a_surface_too_flat_for_its_cells_is_refused() -> None:
-    (message,) = found_in(EXAMPLE.tables | {"geometry": {"surface": [["0 m", "6 m"], ["20 m", "4 m"]]}})
+    (message,) = found_in(
+        EXAMPLE.tables | {"geometry": {"surface": [["0 m", "6 m"], ["20 m", "4 m"], ["40 m", "4 m"]]}}
+    )
     assert "numerics.cell" in message
     assert "a slope of 2 m must be at least 4 cells high; use at most 0.5 m" in message
+
+
+VALLEY = [["0 m", "10 m"], ["10 m", "10 m"], ["16 m", "4 m"], ["40 m", "4 m"], ["60 m", "25 m"]]
+
+
+def test_a_valley_may_have_a_far_side_higher_than_the_crest() -> None:
+    assert found_in(EXAMPLE.tables | {"geometry": {"surface": VALLEY}}) == []
+
+
+@pytest.mark.parametrize("toe", ["16 m", "20 m"])
+def test_the_toe_of_a_surface_can_be_given(toe: str) -> None:
+    assert found_in(EXAMPLE.tables | {"geometry": {"surface": VALLEY, "toe": toe}}) == []
+
+
+@pytest.mark.parametrize("toe", ["1 m", "59 m", "60 m", "75 m"])
+def test_a_toe_on_a_wall_is_refused(toe: str) -> None:
+    (message,) = found_in(EXAMPLE.tables | {"geometry": {"surface": VALLEY, "toe": toe}})
+    assert "geometry.toe" in message
+    assert f'is "{toe}", but a slide must begin and end between the walls, at 0 m and 60 m' in message
+
+
+def test_a_slope_that_ends_at_the_wall_is_refused() -> None:
+    (message,) = found_in(EXAMPLE.tables | {"geometry": {"surface": [["0 m", "19 m"], ["20 m", "4 m"]]}})
+    assert "the foot of its steepest face, x = 20 m, lies on a wall" in message
+
+
+def test_the_toe_of_a_slope_is_not_given_again() -> None:
+    assert "leave it out" in complaint("geometry.toe=30 m")
