@@ -1,0 +1,133 @@
+"""The factor of safety of a homogeneous slope by Bishop's simplified method, as a first look before anything is run.
+
+A circular slip surface is cut into vertical slices of width ``b`` and weight ``W``, whose bases dip by ``alpha``
+towards the toe. Moments about the centre, with no shear between slices, give (Bishop 1955, Geotechnique 5:7)
+
+    F = sum [(c b + W tan(phi)) / (cos(alpha) + sin(alpha) tan(phi) / F)] / sum W sin(alpha)
+
+The critical circle is the one with the least ``F``. Circles end on the ground surface and stay above the fixed base.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.surface import Surface
+
+Array = NDArray[np.float64]
+
+SLICES = 30
+SAGITTAS = (0.02, 0.5)  # depths of arcs under their chords, over the length of these
+COARSE = (28, 28, 10)  # places on the surface where circles begin, where they end, and circles through both
+FINE = 11  # the same three, in the neighbourhood of the best
+REFINEMENTS = 8
+ITERATIONS = 15
+
+
+class SlipCircle(NamedTuple):
+    """A circular slip surface and its factor of safety."""
+
+    factor: float
+    x: float  # m, of the centre
+    y: float  # m
+    radius: float  # m
+    entry: float  # m, where it leaves the ground surface uphill
+    exit: float  # m, and downhill
+
+
+def critical_circle(surface: Surface, cohesion: float, friction_angle: float, unit_weight: float) -> SlipCircle:
+    """Return the circle with the least factor of safety, slides towards +x.
+
+    Parameters
+    ----------
+    surface : Surface
+        Of the ground; its base is at elevation 0.
+    cohesion, friction_angle, unit_weight : float
+        In Pa, rad and N/m3, everywhere the same.
+    """
+    limits = [(0.0, surface.width), (0.0, surface.width), SAGITTAS]
+    steps = [(high - low) / (count - 1) for (low, high), count in zip(limits, COARSE, strict=True)]
+    axes = [np.linspace(low, high, count) for (low, high), count in zip(limits, COARSE, strict=True)]
+    axes[:2] = [np.union1d(axis, surface.x) for axis in axes[:2]]
+    for _ in range(1 + REFINEMENTS):
+        entry, exit_, sagitta = (values.ravel() for values in np.meshgrid(*axes))
+        factors = factors_of_safety(surface, entry, exit_, sagitta, cohesion, friction_angle, unit_weight)
+        best = int(np.argmin(factors))
+        circle = entry[best], exit_[best], sagitta[best]
+        axes = [
+            np.linspace(value - 2.0 * step, value + 2.0 * step, FINE).clip(low, high)
+            for value, step, (low, high) in zip(circle, steps, limits, strict=True)
+        ]
+        steps = [4.0 * step / (FINE - 1) for step in steps]
+    a, b, s = circle
+    centre_x, centre_y, radius = _circles(surface, a[None], b[None], s[None])
+    return SlipCircle(
+        float(factors[best]), float(centre_x[0]), float(centre_y[0]), float(radius[0]), float(a), float(b)
+    )
+
+
+def factors_of_safety(
+    surface: Surface,
+    entry: Array,
+    exit_: Array,
+    sagitta: Array,
+    cohesion: float,
+    friction_angle: float,
+    unit_weight: float,
+) -> Array:
+    """Return the factor of safety of each circle, infinite where it is none or nothing drives it.
+
+    Parameters
+    ----------
+    surface : Surface
+    entry, exit_ : ndarray (k,)
+        Places in m where a circle cuts the surface.
+    sagitta : ndarray (k,)
+        Depth of the arc under its chord, over the chord's length.
+    cohesion, friction_angle, unit_weight : float
+        In Pa, rad and N/m3.
+    """
+    is_possible = entry < exit_
+    factor = np.full(entry.size, np.inf)
+    entry, exit_, sagitta = entry[is_possible], exit_[is_possible], sagitta[is_possible]
+    centre_x, centre_y, radius = _circles(surface, entry, exit_, sagitta)
+    width = (exit_ - entry) / SLICES
+    x = entry[:, None] + width[:, None] * (np.arange(SLICES) + 0.5)
+    sine = (centre_x[:, None] - x) / radius[:, None]
+    with np.errstate(invalid="ignore"):
+        cosine = np.sqrt(1.0 - sine**2)
+        thickness = surface.height_at(x) - (centre_y[:, None] - radius[:, None] * cosine)
+        is_arc = centre_y >= surface.height_at(entry)  # else the arc would overhang
+        is_arc &= centre_y - radius >= 0.0
+        is_arc &= np.all(thickness >= 0.0, axis=1)
+    weight = unit_weight * thickness * width[:, None]
+    factor[np.flatnonzero(is_possible)[is_arc]] = _bishop(
+        weight[is_arc], sine[is_arc], cosine[is_arc], cohesion * width[is_arc, None], np.tan(friction_angle)
+    )
+    return factor
+
+
+def _circles(surface: Surface, entry: Array, exit_: Array, sagitta: Array) -> tuple[Array, Array, Array]:
+    """Return the centres and radii of circles through two places of the surface."""
+    top, bottom = surface.height_at(entry), surface.height_at(exit_)
+    chord = np.hypot(exit_ - entry, top - bottom)
+    radius = chord * (0.25 + sagitta**2) / (2.0 * sagitta)
+    rise = (radius - sagitta * chord) / chord
+    return (
+        0.5 * (entry + exit_) + rise * (top - bottom),
+        0.5 * (top + bottom) + rise * (exit_ - entry),
+        radius,
+    )
+
+
+def _bishop(weight: Array, sine: Array, cosine: Array, cohesive_force: Array, tangent: float) -> Array:
+    driving = np.sum(weight * sine, axis=1)
+    resisting = cohesive_force + weight * tangent
+    factor = np.ones(driving.size)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for _ in range(ITERATIONS):
+            share = cosine + sine * tangent / factor[:, None]
+            factor = np.sum(resisting / share, axis=1) / driving
+            factor = np.where((driving > 0.0) & (share.min(axis=1) > 0.2) & (factor > 0.0), factor, np.inf)
+    return factor
