@@ -70,7 +70,8 @@ class Record:
     status, reason
         How it ended, and the sentence behind a failure or a flag ("" where there is neither).
     values
-        One entry for each name in `QUANTITIES`, in the units given there.
+        By name, in the units that `QUANTITIES` gives. One that was kept by another version may lack some quantities and
+        hold others.
     """
 
     realization: int
@@ -79,10 +80,34 @@ class Record:
     values: Mapping[str, Value]
 
 
+class RealizationSummary(NamedTuple):
+    """The part of a record that decisions rest on; the run-out is in m, the wall-clock time in s."""
+
+    realization: int
+    status: Status
+    final_runout: float
+    wall_time: float
+
+
+def summarize(record: Record) -> RealizationSummary:
+    """Return the part of a record that decisions rest on."""
+    runout, wall_time = (float(record.values.get(name, np.nan)) for name in SUMMARIZED)
+    return RealizationSummary(record.realization, record.status, runout, wall_time)
+
+
+SUMMARIZED = ("final_runout", "wall_time")
+"""The quantities of a summary."""
+
+
+def fill_of(dtype: Any) -> float | int:
+    """Return what stands for a missing number: NaN, or 0 for integers."""
+    return np.nan if np.dtype(dtype).kind == "f" else 0
+
+
 def missing_values(sizes: Mapping[str, int]) -> dict[str, Value]:
     """Return the values of a realization without a result: NaN, or 0 for integers; `sizes` maps dimension to length."""
     values: dict[str, Value] = {}
     for name, quantity in QUANTITIES.items():
-        fill = np.nan if quantity.dtype.startswith("f") else 0
-        values[name] = np.full([sizes[dim] for dim in quantity.dims], fill, dtype=quantity.dtype)
+        shape = [sizes[dim] for dim in quantity.dims]
+        values[name] = np.full(shape, fill_of(quantity.dtype), dtype=quantity.dtype)
     return values

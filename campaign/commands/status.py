@@ -5,9 +5,10 @@ from pathlib import Path
 from typing import Any
 
 from campaign.errors import DamagedRecordError
+from campaign.record import summarize
 from campaign.running.progress import state_line
 from campaign.statistics.convergence import Rule
-from campaign.statistics.tally import Tally, outcome_of
+from campaign.statistics.tally import Tally
 from campaign.storage import manifest
 from campaign.storage.layout import HALF_CELL, RESULTS
 from campaign.storage.lock import DirectoryLock
@@ -64,7 +65,7 @@ def _tally(directory: Path, wanted: dict[str, Any]) -> tuple[Tally, list[str]]:
     try:
         for realization in sorted(store.finished()):
             try:
-                tally.add(outcome_of(store.read(realization)))
+                tally.add(summarize(store.read(realization)))
             except DamagedRecordError as error:
                 damaged.append(str(error))
     except DamagedRecordError as error:

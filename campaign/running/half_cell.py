@@ -76,7 +76,7 @@ def _repeat(level: Level, home: Path, tally: Tally, prepare: Prepare, hand_out: 
 def _account(level: Level, tally: Tally) -> Tally:
     """Return the account of the repeated; what did not count the first time needs no repetition."""
     repeated = level.tally()
-    for outcome in tally.outcomes.values():
-        if outcome.status not in USABLE:
-            repeated.add(outcome)
+    for summary in tally.summaries.values():
+        if summary.status not in USABLE:
+            repeated.add(summary)
     return repeated

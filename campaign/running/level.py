@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from campaign.record import Record, Status, missing_values
+from campaign.record import Record, Status, missing_values, summarize
 from campaign.scene import Scene
 from campaign.simulation.contract import PreparedGround, sizes
-from campaign.statistics.tally import Tally, outcome_of, tally_of
+from campaign.statistics.tally import Tally, tally_of
 from campaign.storage.attempts import Attempts
 from campaign.storage.record_store import RecordStore
 from campaign.terminal import say
@@ -38,5 +38,5 @@ class Level:
         """Return the account of what earlier starts have finished or given up."""
         tally = tally_of(self.scene)
         for record in self.store.read_all():
-            tally.add(outcome_of(record))
+            tally.add(summarize(record))
         return tally

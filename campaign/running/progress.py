@@ -4,7 +4,8 @@ import math
 import time
 from collections.abc import Callable
 
-from campaign.statistics.intervals import Interval, mean_interval, std_interval
+from campaign.statistics.convergence import predicted_stop
+from campaign.statistics.intervals import Interval, std_of
 from campaign.statistics.tally import Tally
 from campaign.terminal import clock, duration, say
 
@@ -48,13 +49,10 @@ def state_line(tally: Tally) -> str:
 
 
 def _estimates(tally: Tally) -> str:
-    runouts = tally.runouts()
-    runouts = runouts[runouts == runouts]
-    if len(runouts) < 2:
+    latest = tally.latest()
+    if latest.n < 2:
         return ""
-    mean = mean_interval(runouts, tally.rule.confidence)
-    std = std_interval(runouts, tally.rule.confidence)
-    return f" | run-out {_mean(mean)}, std {_std(std)}"
+    return f" | run-out {_mean(latest.mean)}, std {_std(std_of(latest.variance))}"
 
 
 def _mean(mean: Interval) -> str:
@@ -70,7 +68,7 @@ def _std(std: Interval) -> str:
 def _time_left(tally: Tally, rate: float) -> str:
     needed, forecast = tally.maximum, ""
     if tally.prefix >= tally.rule.minimum:
-        predicted = float(tally.history().predicted_n[-1])
+        predicted = predicted_stop(tally.latest(), tally.rule)
         needed = int(min(predicted, tally.maximum)) if math.isfinite(predicted) else tally.maximum
         forecast = f" | about {predicted:.0f} needed" if math.isfinite(predicted) else ""
     if rate <= 0 or needed <= tally.done:

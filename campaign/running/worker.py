@@ -5,10 +5,10 @@ import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from campaign.record import Record, Status, missing_values
+from campaign.record import Record, Status, missing_values, summarize
 from campaign.running.stop_request import StopRequest
 from campaign.simulation.contract import Interrupted, PreparedGround, sizes
-from campaign.statistics.tally import Report, outcome_of
+from campaign.statistics.tally import Report
 from campaign.storage.attempts import Attempts
 from campaign.storage.record_store import RecordStore
 
@@ -81,7 +81,7 @@ class Worker:
             self.store.write(record)
         except OSError as error:
             return Report(None, f"realization {realization} cannot be kept in {self.store.records} ({error})")
-        return Report(outcome_of(record), "asked to stop" if self.interrupt.stop.drain else "")
+        return Report(summarize(record), "asked to stop" if self.interrupt.stop.drain else "")
 
     def _simulate(self, realization: int) -> Record | None:
         """Return the record, or None when the realization is abandoned."""

@@ -147,13 +147,13 @@ def is_regular(count: int, rule: Rule) -> bool:
 def look(runouts: Sample, realizations: int, confidence: float, threshold: float) -> Checkpoint:
     """Estimate everything at one checkpoint."""
     n = len(runouts)
-    exceeding = int(np.count_nonzero(runouts > threshold))
+    exceeding, tail = int(np.count_nonzero(runouts > threshold)), kurtosis(runouts)
     return Checkpoint(
         realizations=realizations,
         mean=mean_interval(runouts, confidence),
-        variance=variance_interval(runouts, confidence),
+        variance=variance_interval(runouts, confidence, tail),
         exceedance=unknown(math.nan, n) if math.isnan(threshold) else proportion_interval(exceeding, n, confidence),
-        kurtosis=kurtosis(runouts),
+        kurtosis=tail,
     )
 
 

@@ -10,12 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.record import USABLE
+from campaign.record import USABLE, RealizationSummary
 from campaign.scene import Scene
 from campaign.scene.cost import HALF_CELL_COST
 from campaign.seeds import BASELINE
 from campaign.statistics.intervals import Interval, Sample, mean_interval
-from campaign.statistics.tally import Outcome, Tally
+from campaign.statistics.tally import Tally
 
 METHOD = (
     "plain difference between run-outs of the same random fields with half the cell and with the cell; no "
@@ -73,8 +73,8 @@ def estimate(scene: Scene, coarse: Tally, fine: Tally) -> Discretisation:
 
 
 def _difference(realization: int, coarse: Tally, fine: Tally) -> float:
-    return _runout(fine.outcomes[realization]) - _runout(coarse.outcomes[realization])
+    return _runout(fine.summaries[realization]) - _runout(coarse.summaries[realization])
 
 
-def _runout(outcome: Outcome) -> float:
-    return outcome.final_runout if outcome.status in USABLE else np.nan
+def _runout(summary: RealizationSummary) -> float:
+    return summary.final_runout if summary.status in USABLE else np.nan

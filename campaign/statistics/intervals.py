@@ -105,7 +105,7 @@ def kurtosis(values: Sample) -> float:
     return float(n * np.sum((values - centre) ** 4) / np.sum((values - np.mean(values)) ** 2) ** 2)
 
 
-def variance_interval(values: Sample, confidence: float) -> Interval:
+def variance_interval(values: Sample, confidence: float, tail: float | None = None) -> Interval:
     """Unbiased variance with Bonett's interval, which is close to exact for normal and honest for skewed samples.
 
     c s^2 exp(+- z c sqrt((kurtosis - (n - 3)/n) / (n - 1))),  c = n / (n - z).
@@ -119,6 +119,8 @@ def variance_interval(values: Sample, confidence: float) -> Interval:
     values : array (n,)
     confidence : float
         Between 0 and 1.
+    tail : float, optional
+        The kurtosis of the values, where it is known already.
 
     Returns
     -------
@@ -132,7 +134,7 @@ def variance_interval(values: Sample, confidence: float) -> Interval:
     """
     n = len(values)
     variance = float(np.var(values, ddof=1)) if n > 1 else math.nan
-    tail, z = kurtosis(values), normal_quantile(confidence)
+    tail, z = kurtosis(values) if tail is None else tail, normal_quantile(confidence)
     if math.isnan(tail) or n <= z:
         return unknown(variance, n)
     c = n / (n - z)
@@ -142,7 +144,12 @@ def variance_interval(values: Sample, confidence: float) -> Interval:
 
 def std_interval(values: Sample, confidence: float) -> Interval:
     """Return the standard deviation with the interval whose bounds are the roots of the variance's."""
-    estimate, lower, upper, n = variance_interval(values, confidence)
+    return std_of(variance_interval(values, confidence))
+
+
+def std_of(variance: Interval) -> Interval:
+    """Return the standard deviation that belongs to a variance."""
+    estimate, lower, upper, n = variance
     return Interval(math.sqrt(estimate), math.sqrt(lower), math.sqrt(upper), n)
 
 

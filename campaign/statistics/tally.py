@@ -5,104 +5,112 @@ realizations in the result depends neither on ranks nor on the order in which th
 """
 
 import math
-from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from campaign.record import FAILED, USABLE, Record, Status
+from campaign.record import FAILED, USABLE, RealizationSummary
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
-from campaign.statistics.convergence import History, Rule, history, is_regular
-
-
-class Outcome(NamedTuple):
-    """What rank 0 must know of a finished realization."""
-
-    realization: int
-    status: Status
-    final_runout: float
-    wall_time: float
+from campaign.statistics.convergence import Checkpoint, History, Rule, is_converged, is_regular, look, tabulate
 
 
 class Report(NamedTuple):
     """A rank's word to rank 0: what it has finished, and why it must stop ("" if it need not)."""
 
-    outcome: Outcome | None
+    finished: RealizationSummary | None
     problem: str = ""
 
 
-def outcome_of(record: Record) -> Outcome:
-    """Return the part of a record that the stopping rule needs."""
-    runout, wall_time = record.values["final_runout"], record.values["wall_time"]
-    return Outcome(record.realization, record.status, float(runout), float(wall_time))
-
-
 class Tally:
-    """Finished realizations of a campaign of at most `maximum`, judged by `rule`."""
+    """Finished realizations of a campaign of at most `maximum`, judged by `rule`.
+
+    Each realization is counted once, when it is added; only a checkpoint looks at all of them.
+
+    Attributes
+    ----------
+    summaries : dict
+        Of the finished realizations, by id.
+    prefix : int
+        All realizations below it are finished, and so is the baseline.
+    size : int or None
+        Number of realizations in the result, once that is settled.
+    failed, failed_in_prefix : int
+        Failures among all finished realizations, and among those in the prefix.
+    longest : float
+        Wall-clock time of the slowest realization [s], the baseline included.
+    """
 
     def __init__(self, maximum: int, rule: Rule, max_failed_fraction: float) -> None:
         self.maximum = maximum
         self.rule = rule
         self.max_failed_fraction = max_failed_fraction
-        self.outcomes: dict[int, Outcome] = {}
+        self.summaries: dict[int, RealizationSummary] = {}
         self.prefix = 0
         self.size: int | None = None
-        """Number of realizations in the result, once that is settled."""
         self.too_many_failed = False
+        self.failed = 0
+        self.failed_in_prefix = 0
+        self.longest = 0.0
+        self._usable = np.empty(maximum)
+        self._n_usable = 0
+        self._looks: list[Checkpoint] = []
+        self._latest: Checkpoint | None = None
 
-    def add(self, outcome: Outcome) -> None:
-        """Take a realization into the account; ids beyond the maximum, of an earlier and larger campaign, stay out."""
-        if outcome.realization >= self.maximum:
+    def add(self, summary: RealizationSummary) -> None:
+        """Take a realization into the account, unless it is there already.
+
+        Ids beyond the maximum, of an earlier and larger campaign, stay out.
+        """
+        if summary.realization >= self.maximum or summary.realization in self.summaries:
             return
-        self.outcomes[outcome.realization] = outcome
-        while self.size is None and BASELINE in self.outcomes and self.prefix in self.outcomes:
-            self.prefix += 1
+        self.summaries[summary.realization] = summary
+        self.failed += summary.status in FAILED and summary.realization != BASELINE
+        self.longest = max(self.longest, summary.wall_time)  # which ignores NaN
+        while self.size is None and BASELINE in self.summaries and self.prefix in self.summaries:
+            self._count(self.summaries[self.prefix])
             self._judge()
+
+    def _count(self, summary: RealizationSummary) -> None:
+        """Take the next realization into the prefix."""
+        if summary.status in USABLE and not math.isnan(summary.final_runout):
+            self._usable[self._n_usable] = summary.final_runout
+            self._n_usable += 1
+        self.failed_in_prefix += summary.status in FAILED
+        self.prefix += 1
 
     def _judge(self) -> None:
         at_end = self.prefix == self.maximum
-        if not (is_regular(self.prefix, self.rule) or at_end):
+        if is_regular(self.prefix, self.rule):
+            self._looks.append(self.latest())
+        elif not at_end:
             return
         self.too_many_failed = self.failed_in_prefix > self.max_failed_fraction * self.prefix
-        if at_end or self.too_many_failed or self.history().converged_at is not None:
+        if at_end or self.too_many_failed or is_converged(self._looks, self.rule):
             self.size = self.prefix
 
     @property
     def done(self) -> int:
         """Finished realizations, whether or not they are in the result."""
-        return len(self.outcomes) - (BASELINE in self.outcomes)
+        return len(self.summaries) - (BASELINE in self.summaries)
 
     @property
     def threshold(self) -> float:
         """Run-out of the baseline [m]; NaN when it is not there or failed."""
-        baseline = self.outcomes.get(BASELINE)
+        baseline = self.summaries.get(BASELINE)
         return baseline.final_runout if baseline is not None and baseline.status not in FAILED else math.nan
 
-    @property
-    def failed(self) -> int:
-        """Failures among all finished realizations."""
-        return sum(outcome.status in FAILED for k, outcome in self.outcomes.items() if k != BASELINE)
-
-    @property
-    def failed_in_prefix(self) -> int:
-        """Failures in the prefix."""
-        return sum(self.outcomes[k].status in FAILED for k in range(self.prefix))
-
-    def by_status(self) -> Mapping[Status, int]:
-        """Return how many realizations of the prefix ended in each way."""
-        ends = [self.outcomes[k].status for k in range(self.prefix)]
-        return {status: ends.count(status) for status in Status}
-
-    def runouts(self) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-        """Return the final run-out of the realizations in the prefix [m], NaN where it is not usable."""
-        prefix = [self.outcomes[k] for k in range(self.prefix)]
-        return np.array([each.final_runout if each.status in USABLE else math.nan for each in prefix], dtype=float)
+    def latest(self) -> Checkpoint:
+        """Return the estimates from the whole prefix; computed once for each length of it."""
+        if self._latest is None or self._latest.realizations != self.prefix:
+            usable = self._usable[: self._n_usable]
+            self._latest = look(usable, self.prefix, self.rule.confidence, self.threshold)
+        return self._latest
 
     def history(self) -> History:
-        """Return the estimates at the checkpoints of the prefix."""
-        values = self.runouts()
-        return history(values, ~np.isnan(values), self.rule, self.threshold)
+        """Return the estimates at the checkpoints of the prefix, and at its end."""
+        is_at_checkpoint = bool(self._looks) and self._looks[-1].realizations == self.prefix
+        return tabulate(self._looks if is_at_checkpoint else [*self._looks, self.latest()], self.rule)
 
     def checkpoints(self) -> int:
         """Return how many checkpoints the prefix has passed."""

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from campaign.record import FAILED, QUANTITIES, Record, Status, missing_values
+from campaign.record import FAILED, QUANTITIES, Record, Status, missing_values, summarize
 from campaign.results import dataset
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import sizes
 from campaign.simulation.ground import prepare
-from campaign.statistics.tally import outcome_of, tally_of
+from campaign.statistics.tally import tally_of
 from campaign.storage import manifest
 from campaign.storage.provenance import attributes
 from campaign.storage.record_store import RecordStore
@@ -37,7 +37,7 @@ def conclude(directory, scene, ground, records):
     store.create()
     for record in records:
         store.write(record)
-        tally.add(outcome_of(record))
+        tally.add(summarize(record))
     history = tally.history()
     about = attributes(scene, manifest.read(directory), history.verdict)
     kept = records[1 : 1 + tally.prefix]

@@ -4,18 +4,18 @@ import numpy as np
 import pytest
 from small_campaign import small_scene
 
-from campaign.record import Status
+from campaign.record import RealizationSummary, Status
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
 from campaign.simulation.ground import prepare
 from campaign.statistics.discretisation import Discretisation, estimate, with_half_cell
-from campaign.statistics.tally import Outcome, tally_of
+from campaign.statistics.tally import tally_of
 
 
 def account(scene, runouts, **statuses):
     tally = tally_of(scene)
     for k, runout in enumerate(runouts, start=BASELINE):
-        tally.add(Outcome(k, statuses.get(f"_{k}", Status.slid), runout, 1.0))
+        tally.add(RealizationSummary(k, statuses.get(f"_{k}", Status.slid), runout, 1.0))
     return tally
 
 

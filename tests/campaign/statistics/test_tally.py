@@ -1,10 +1,15 @@
 """The account of a campaign does not depend on the order in which realizations finish."""
 
+import time
+
 import numpy as np
 import pytest
-from tallies import filled, outcome
+from tallies import filled, summary
 
+from campaign.record import FAILED, USABLE, RealizationSummary, Status
 from campaign.seeds import BASELINE
+from campaign.statistics.convergence import Rule, history
+from campaign.statistics.tally import Tally
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -22,7 +27,7 @@ def test_nothing_is_decided_before_the_baseline():
 def test_a_gap_ends_the_prefix():
     tally = filled([BASELINE, *range(15), *range(16, 90)])
     assert (tally.prefix, tally.done, tally.size) == (15, 89, None)
-    tally.add(outcome(15))
+    tally.add(summary(15))
     assert tally.size == 70
 
 
@@ -39,3 +44,57 @@ def test_ids_beyond_the_maximum_stay_out():
 def test_too_many_failures_are_noticed_at_the_first_checkpoint():
     tally = filled([BASELINE, *range(60)], failing=range(5, 8))
     assert (tally.size, tally.too_many_failed) == (20, True)
+
+
+def from_scratch(tally):
+    """The history as the stopping rule defines it, from all run-outs at once."""
+    values = np.array(
+        [
+            each.final_runout if each.status in USABLE else np.nan
+            for each in (tally.summaries[k] for k in range(tally.prefix))
+        ],
+        dtype=float,
+    )
+    return history(values, ~np.isnan(values), tally.rule, tally.threshold)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_running_account_is_that_of_all_run_outs_at_once(seed):
+    """Bit for bit, at every step, with failures, slopes that stay, gaps and any order of arrival."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 160))
+    rule = Rule(
+        rng.uniform(0.001, 0.05), rng.uniform(0.1, 1.0), 0.95, int(rng.integers(10, 60)), int(rng.integers(1, 9))
+    )
+    statuses = rng.choice(list(Status), count + 1, p=[0.8, 0.05, 0.07, 0.02, 0.02, 0.02, 0.02])
+    runouts = np.where(rng.random(count + 1) < 0.02, np.nan, rng.lognormal(2, 0.3, count + 1))
+    tally = Tally(count, rule, rng.uniform(0.02, 0.3))
+    for k in rng.permutation(np.arange(-1, count)).tolist():
+        tally.add(RealizationSummary(k, Status(statuses[k]), float(runouts[k]), float(rng.exponential())))
+        if tally.prefix:
+            for name, value in vars(from_scratch(tally)).items():
+                np.testing.assert_array_equal(getattr(tally.history(), name), value, err_msg=name)
+    ends = [tally.summaries[k].status for k in range(tally.prefix)]
+    assert tally.failed_in_prefix == sum(status in FAILED for status in ends)
+    assert tally.failed == sum(tally.summaries[k].status in FAILED for k in range(count))
+    assert tally.longest == max(each.wall_time for each in tally.summaries.values())
+
+
+def test_a_realization_counts_once():
+    tally = filled([BASELINE, *range(5)])
+    tally.add(summary(3, Status.crashed))
+    assert (tally.done, tally.failed, tally.summaries[3].status) == (5, 0, Status.slid)
+
+
+def seconds_to_add(count):
+    tally = Tally(count, Rule(1e-6, 1e-6, 0.95, 100, 25), 0.1)
+    summaries = [RealizationSummary(k, Status.slid, 10.0 + k % 7, 1.0) for k in range(-1, count)]
+    begin = time.process_time()
+    for each in summaries:
+        tally.add(each)
+    return time.process_time() - begin
+
+
+def test_the_account_takes_ten_times_as_long_for_ten_times_as_many():
+    short = min(seconds_to_add(1000) for _ in range(3))
+    assert seconds_to_add(10_000) < 15 * short
