@@ -7,13 +7,14 @@ import numpy as np
 
 from campaign.errors import DamagedRecordError, RefusalError
 from campaign.record import Record
-from campaign.results.results import check_same
 from campaign.scene import kept_scene
 from campaign.seeds import BASELINE
 from campaign.simulation.ground import Ground, prepare
 from campaign.simulation.solver_model import Array
 from campaign.storage import manifest
-from campaign.storage.record_store import RecordStore, file_name
+from campaign.storage.access import check_digest
+from campaign.storage.layout import REPLAY, replay_file
+from campaign.storage.record_store import RecordStore
 from campaign.storage.vtkhdf import ParticleFile
 from campaign.terminal import say
 from solver.march import March
@@ -65,7 +66,7 @@ def prepare_again(directory: Path, realization: int) -> Ground:
         raise RefusalError(f"There is no realization {realization}; give 0 or more, or {BASELINE} for mean strengths.")
     about = manifest.read(directory)
     scene = kept_scene(about["scene"], about["overrides"])
-    check_same(scene, about["digest"])
+    check_digest(scene, about["digest"])
     return prepare(scene, directory)
 
 
@@ -118,10 +119,10 @@ def comparison(record: Record, kept: Record | None) -> str:
 
 
 def differing(record: Record, kept: Record) -> list[str]:
-    """Name what is not the same, bit for bit, in two records of a realization."""
+    """Name what is not the same, bit for bit, in two records of a realization, as far as the kept one holds it."""
     names = [] if record.status == kept.status else ["status"]
     for name, value in record.values.items():
-        if name not in MACHINE_TIME and not _equal(value, kept.values[name]):
+        if name in kept.values and name not in MACHINE_TIME and not _equal(value, kept.values[name]):
             names.append(name)
     return names
 
@@ -138,7 +139,7 @@ def _recorded(directory: Path, realization: int) -> Record | None:
 
 
 def _new_file(directory: Path, realization: int) -> Path:
-    path = directory / "replay" / f"{file_name(realization)}.vtkhdf"
+    path = directory / REPLAY / replay_file(realization)
     try:
         path.parent.mkdir(exist_ok=True)
     except OSError as error:

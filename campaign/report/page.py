@@ -16,12 +16,12 @@ from campaign.report.figures import distribution, ground, precision, slides
 from campaign.report.figures.section import Section, section_of
 from campaign.report.figures.style import Illustration, NotDrawableError, in_style
 from campaign.report.snapshots import ReplayedSlide, replay
-from campaign.results.results import Results, check_same, read_results
+from campaign.results.results import Results, read_results
 from campaign.seeds import BASELINE
 from campaign.simulation.ground import Ground, prepare
+from campaign.storage.access import check_digest
 from campaign.storage.files import write_atomically
-
-PAGE = "report.html"
+from campaign.storage.layout import FIGURES, REPORT
 
 TIMES = (0.0, 3.0, 5.0)
 """Seconds after release at which the paper shows the deterministic slide, besides its end."""
@@ -77,10 +77,10 @@ def write_report(directory: Path) -> Path:
     """
     results = read_results(directory)
     replayed, remarks = _replayed(results, directory)
-    page = directory / PAGE
+    page = directory / REPORT
     try:
         with in_style():
-            drawn = [_draw(plan, directory / "figures") for plan in _plans(results, replayed)]
+            drawn = [_draw(plan, directory / FIGURES) for plan in _plans(results, replayed)]
         write_atomically(page, render(results, drawn, remarks).encode())
     except OSError as error:
         raise RefusalError(f"The report cannot be written ({error}); make room in {directory}, or copy it.") from error
@@ -137,7 +137,7 @@ def _replayed(results: Results, directory: Path) -> tuple[Replays | None, list[s
 
 
 def _replays(results: Results, directory: Path) -> Replays:
-    check_same(results.scene, results.data.attrs["scene_sha256"])
+    check_digest(results.scene, results.data.attrs["scene_sha256"])
     ground = prepare(results.scene, directory)
     seen: dict[int, ReplayedSlide] = {}
     for rank in RANKS.values() if results.usable_runouts.size else ():

@@ -14,6 +14,7 @@ from campaign.scene import Scene, kept_scene
 from campaign.seeds import BASELINE
 from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.intervals import Sample
+from campaign.storage.formats import check_format
 from campaign.storage.layout import RESULTS
 
 
@@ -115,12 +116,13 @@ def open_results(directory: str | Path) -> xr.Dataset:
     Raises
     ------
     RefusalError
-        When there is none.
+        When there is none, or one that only a newer version can read.
     """
     path = Path(directory) / RESULTS
     if not path.exists():
         raise RefusalError(f"{directory} holds no {RESULTS}; give the directory of a campaign that has results.")
     with xr.open_dataset(path, decode_timedelta=False) as opened:
+        check_format(opened.attrs.get("format", 0), str(opened.attrs.get("format_reader", "")), str(path))
         return opened.load()
 
 
@@ -130,23 +132,8 @@ def read_results(directory: Path) -> Results:
     Raises
     ------
     RefusalError
-        When there are none, or when this version cannot read the scene that made them.
+        When there are none, or when this version cannot read them or the scene that made them.
     """
     data = open_results(directory)
     overrides = filter(None, str(data.attrs["scene_overrides"]).split("\n"))
     return Results(data, kept_scene(str(data.attrs["scene"]), overrides))
-
-
-def check_same(scene: Scene, digest: str) -> None:
-    """Make sure that a scene read again is the one of the campaign.
-
-    Raises
-    ------
-    RefusalError
-        When its SHA-256 is not `digest`: its realizations would be others.
-    """
-    if scene.digest() != digest:
-        raise RefusalError(
-            f"This version reads the scene of the campaign differently (SHA-256 {scene.digest()[:12]}, {digest[:12]} "
-            "was kept), so its realizations would not be the same ones; use the version that computed them."
-        )

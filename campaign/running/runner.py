@@ -21,6 +21,7 @@ from campaign.running.worker import LAST_CALL
 from campaign.scene import Scene, load_scene
 from campaign.simulation.contract import Prepare, PreparedGround
 from campaign.statistics.tally import Tally
+from campaign.storage.layout import RESULTS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -67,7 +68,7 @@ def run(
     is_main = threading.current_thread() is threading.main_thread()  # others may not listen to signals
     with listening() if is_main else nullcontext(StopRequest()) as stop, opened(scene, directory, 1) as opened_here:
         code = conduct(opened_here, prepare, Alone(stop), stop, write_report if report else None)
-    if code is ExitCode.RESUMABLE and not (directory / "results.nc").exists():
+    if code is ExitCode.RESUMABLE and not (directory / RESULTS).exists():
         raise CampaignError(f"No realization of {scene.title} was finished; call run again to continue.")
     return open_results(directory)
 

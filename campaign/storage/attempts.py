@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from campaign.storage.files import write_atomically
-from campaign.storage.layout import ATTEMPTS
+from campaign.storage.layout import ATTEMPTS, CRASHES, EVERY_ATTEMPT, attempt_file
 
 PATIENCE = 2
 """Crashes after which a realization is given up."""
@@ -23,7 +23,7 @@ class Attempts:
 
     def __init__(self, directory: Path) -> None:
         self.directory = directory / ATTEMPTS
-        self._crashes = self.directory / "crashes"
+        self._crashes = self.directory / CRASHES
 
     def create(self) -> None:
         """Make the directory."""
@@ -32,7 +32,7 @@ class Attempts:
     @contextmanager
     def of(self, rank: int, realization: int) -> Iterator[None]:
         """Leave a trace should the process die in the context."""
-        with (self.directory / f"rank-{rank:04d}").open("w") as file:
+        with (self.directory / attempt_file(rank)).open("w") as file:
             file.write(f"{realization}\n")
             file.flush()
             faulthandler.enable(file)
@@ -55,7 +55,7 @@ class Attempts:
     def _collect(self) -> list[str]:
         """Return a line "id trace" for each crash, old and new."""
         lines = self._crashes.read_text().splitlines() if self._crashes.exists() else []
-        files = sorted(self.directory.glob("rank-*"))
+        files = sorted(self.directory.glob(EVERY_ATTEMPT))
         fresh = [line for file in files if (line := _crash(file.read_text()))]
         if fresh:
             write_atomically(self._crashes, "".join(f"{line}\n" for line in (*lines, *fresh)).encode())

@@ -1,21 +1,16 @@
 """`manifest.json`: to which scene a results directory belongs, and who has worked in it."""
 
 import json
-from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
 
 from campaign.errors import RefusalError
-from campaign.scene import Scene, differences
+from campaign.scene import Scene
+from campaign.storage.access import Access, Manifest, judge
 from campaign.storage.files import write_atomically
-from campaign.storage.layout import ATTEMPTS, HALF_CELL, LOCK, MANIFEST, PACKS, RECORDS
+from campaign.storage.formats import FORMAT, READER
+from campaign.storage.layout import MANIFEST
 from campaign.storage.provenance import git_describe, library_versions, machine, source_hashes
-
-OWN = {LOCK, RECORDS, PACKS, ATTEMPTS, HALF_CELL}
-"""What a campaign that was killed before its manifest was written may leave."""
-
-Manifest = dict[str, Any]
 
 
 def read(directory: Path) -> Manifest:
@@ -24,15 +19,12 @@ def read(directory: Path) -> Manifest:
     Raises
     ------
     RefusalError
-        When the directory holds no campaign.
+        When the directory holds no campaign, or one that this version cannot read.
     """
-    try:
-        manifest: Manifest = json.loads((directory / MANIFEST).read_text())
-    except (FileNotFoundError, NotADirectoryError):
-        raise RefusalError(f"{directory} holds no campaign: there is no {MANIFEST} in it.") from None
-    except ValueError as error:
-        raise RefusalError(f"{directory / MANIFEST} is damaged ({error}); restore it, or give another --out.") from None
-    return manifest
+    judgement = judge(directory)
+    if judgement.manifest is None:
+        raise RefusalError(judgement.why)
+    return judgement.manifest
 
 
 def begin(directory: Path, scene: Scene, ranks: int, allow_drift: bool) -> list[str]:
@@ -43,12 +35,13 @@ def begin(directory: Path, scene: Scene, ranks: int, allow_drift: bool) -> list[
     RefusalError
         When the directory belongs to another scene, was begun with another solver, or is not a campaign's.
     """
-    earlier = read(directory) if (directory / MANIFEST).exists() else None
     start = _start(ranks)
-    notes = _check(directory, earlier, scene, start, allow_drift) if earlier else _check_empty(directory)
-    starts = [*(earlier["starts"] if earlier else ()), start]
-    _write(directory, _about(scene) | {"starts": starts, "end": None})
-    return notes
+    judgement = judge(directory, scene, start, allow_drift)
+    if judgement.access not in (Access.VACANT, Access.CONTINUABLE):
+        raise RefusalError(judgement.why)
+    earlier = judgement.manifest["starts"] if judgement.manifest else []
+    _write(directory, _about(scene) | {"starts": [*earlier, start], "end": None})
+    return list(judgement.notes)
 
 
 def end(directory: Path, exit_code: int, verdict: str) -> None:
@@ -57,44 +50,10 @@ def end(directory: Path, exit_code: int, verdict: str) -> None:
     _write(directory, read(directory) | {"end": ended})
 
 
-def _check(directory: Path, earlier: Manifest, scene: Scene, start: Mapping[str, Any], allow_drift: bool) -> list[str]:
-    identity = json.loads(json.dumps(scene.identity()))
-    if different := differences(identity, earlier["identity"]):
-        raise RefusalError(
-            f"{directory} belongs to another scene: {'; '.join(different)}. "
-            "Give another --out for this scene, or make the scene that of the directory."
-        )
-    last = earlier["starts"][-1]
-    if last["realization_sha256"] == start["realization_sha256"]:
-        return _changed_versions(last, start)
-    if not allow_drift:
-        raise RefusalError(
-            f"The realizations in {directory} were computed by another version of the solver (sources "
-            f"{last['realization_sha256'][:12]}, now {start['realization_sha256'][:12]}). Give another --out, or "
-            "accept the mixture with --allow-drift, which is written into the results."
-        )
-    return [f"The solver has changed since {last['at']}; --allow-drift mixes older and newer realizations."]
-
-
-def _check_empty(directory: Path) -> list[str]:
-    strange = sorted(p.name for p in directory.iterdir() if p.name not in OWN and not p.name.startswith("."))
-    if strange:
-        raise RefusalError(
-            f"{directory} is not empty ({strange[0]} is in it) and holds no campaign; give another --out."
-        )
-    return []
-
-
-def _changed_versions(last: Mapping[str, Any], start: Mapping[str, Any]) -> list[str]:
-    return [
-        f"{name} was {last['versions'].get(name)} and is {now} now; the last digits of results may differ."
-        for name, now in start["versions"].items()
-        if last["versions"].get(name) != now
-    ]
-
-
 def _about(scene: Scene) -> Manifest:
     return {
+        "format": FORMAT,
+        "reader": READER,
         "name": scene.name,
         "title": scene.title,
         "scene": scene.text,

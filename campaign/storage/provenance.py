@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from campaign.scene import Scene
+from campaign.storage.formats import FORMAT, READER, program_version
 from campaign.storage.source_hash import package_hash, realization_hash
 
 PACKAGE = Path(__file__).parents[1]
@@ -55,7 +56,9 @@ def attributes(scene: Scene, manifest: Mapping[str, Any], verdict: str) -> dict[
     rule = scene.campaign
     return {
         "title": scene.title,
-        "source": f"runout-campaign {_version('runout-campaign')}",
+        "format": FORMAT,
+        "format_reader": READER,
+        "source": f"runout-campaign {program_version()}",
         "history": "; ".join(f"{start['at']} on {start['ranks']} ranks of {start['host']}" for start in starts),
         "seed": str(rule.seed),
         "stopping_rule": (
