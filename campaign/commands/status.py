@@ -4,8 +4,6 @@ import time
 from pathlib import Path
 from typing import Any
 
-from campaign.errors import DamagedRecordError
-from campaign.record import summarize
 from campaign.running.progress import state_line
 from campaign.statistics.convergence import Rule
 from campaign.statistics.tally import Tally
@@ -55,19 +53,10 @@ def _state(directory: Path, about: dict[str, Any]) -> str:
 
 
 def _tally(directory: Path, wanted: dict[str, Any]) -> tuple[Tally, list[str]]:
-    """Return the account of the records on disk, and a sentence for each that cannot be read."""
+    """Return the account of the records on disk, and a sentence for each file that cannot be read."""
     rule = Rule(**{name: wanted[name] for name in Rule.__dataclass_fields__})
-    tally, damaged, store = (
-        Tally(wanted["realizations"], rule, wanted["max_failed_fraction"]),
-        [],
-        RecordStore(directory),
-    )
-    try:
-        for realization in sorted(store.finished()):
-            try:
-                tally.add(summarize(store.read(realization)))
-            except DamagedRecordError as error:
-                damaged.append(str(error))
-    except DamagedRecordError as error:
-        damaged.append(str(error))
+    tally = Tally(wanted["realizations"], rule, wanted["max_failed_fraction"])
+    summaries, damaged = RecordStore(directory).summaries()
+    for summary in summaries.values():
+        tally.add(summary)
     return tally, damaged

@@ -4,31 +4,31 @@ Whatever depends on ranks, hosts or clocks has "wall", "rank" or "host" in its n
 is the same, bit for bit, however the campaign was computed.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
-from campaign.record import FAILED, QUANTITIES, Record, Status
-from campaign.simulation.contract import PreparedGround
+from campaign.record import QUANTITIES, Quantity, Record, Status, missing_values
+from campaign.results.table import Table, gather
+from campaign.simulation.contract import PreparedGround, sizes
 from campaign.statistics.convergence import History
 from campaign.statistics.discretisation import METHOD, Discretisation
+from campaign.storage.columns import Columns
 from campaign.storage.files import publish, temporary_name
 
 CHUNK = 64
 """Realizations in a chunk; the library's own choice for an unlimited dimension is 1, thirty times slower to read."""
-
-TOTALS = ("displaced",)
-"""Quantities that enter the dataset as a mean over realizations only."""
 
 Variables = dict[str, xr.Variable]
 
 
 def build(
     ground: PreparedGround,
-    records: Sequence[Record],
+    blocks: Iterable[Columns],
     baseline: Record,
     history: History,
     about: Mapping[str, Any],
@@ -40,22 +40,23 @@ def build(
     ----------
     ground
         What the realizations share.
-    records
-        Realizations 0, 1, 2, ..., without a gap.
+    blocks
+        Records of realizations 0, 1, 2, ..., each once, in any order.
     baseline
         The deterministic run.
     history
-        The estimates at the checkpoints of these realizations.
+        The estimates at the checkpoints of these realizations; the last one looks at all of them.
     about
         Global attributes.
     discretisation
         What half the cell changes, where that is known.
     """
-    variables = _per_realization(records) | _deterministic(baseline) | _influence(records) | _convergence(history)
+    table = gather(blocks, int(history.realizations[-1]), sizes(ground))
+    variables = _per_realization(table) | _deterministic(baseline, ground) | _influence(table) | _convergence(history)
     if discretisation is not None:
         variables |= _discretisation(discretisation)
     attributes = {"Conventions": "CF-1.11", "n_particles": ground.n_particles, "toe_x": ground.toe_x}
-    return xr.Dataset(variables, _coordinates(ground, records, history), attributes | dict(about))
+    return xr.Dataset(variables, _coordinates(ground, table, history), attributes | dict(about))
 
 
 def write(dataset: xr.Dataset, path: Path) -> None:
@@ -78,10 +79,10 @@ def write(dataset: xr.Dataset, path: Path) -> None:
         temporary.unlink(missing_ok=True)
 
 
-def _coordinates(ground: PreparedGround, records: Sequence[Record], history: History) -> Variables:
+def _coordinates(ground: PreparedGround, table: Table, history: History) -> Variables:
     given = ground.coordinates
     return {
-        "realization": _variable("realization", [r.realization for r in records], "1", "realization", "i4"),
+        "realization": _variable("realization", range(table.n), "1", "realization", "i4"),
         "time": _variable("time", given["time"], "s", "time since release of strength"),
         "x": _variable("x", given["x"], "m", "horizontal place"),
         "particle_x": _variable("particle", given["particle_x"], "m", "initial horizontal place of the particle"),
@@ -90,49 +91,45 @@ def _coordinates(ground: PreparedGround, records: Sequence[Record], history: His
     }
 
 
-def _per_realization(records: Sequence[Record]) -> Variables:
-    variables = {name: _stack(name, records) for name, quantity in QUANTITIES.items() if name not in TOTALS}
-    variables["status"] = _status(records)
-    reason = np.array([record.reason for record in records], dtype=object)
-    variables["reason"] = xr.Variable("realization", reason, {"long_name": "why a realization failed or is flagged"})
+def _per_realization(table: Table) -> Variables:
+    variables = {name: _of_all(QUANTITIES[name], values) for name, values in table.values.items()}
+    variables["status"] = _status(table.statuses)
+    reason = {"long_name": "why a realization failed or is flagged"}
+    variables["reason"] = xr.Variable("realization", table.reasons, reason)
     return variables
 
 
-def _stack(name: str, records: Sequence[Record]) -> xr.Variable:
-    quantity = QUANTITIES[name]
-    values = np.stack([np.asarray(record.values[name], dtype=quantity.dtype) for record in records])
+def _of_all(quantity: Quantity, values: NDArray[Any]) -> xr.Variable:
     variable = _variable(("realization", *quantity.dims), values, quantity.units, quantity.long_name, quantity.dtype)
     variable.attrs["ancillary_variables"] = "status"
     return variable
 
 
-def _status(records: Sequence[Record]) -> xr.Variable:
+def _status(statuses: NDArray[np.int8] | np.int8) -> xr.Variable:
     flags = {
         "long_name": "how the realization ended",
         "standard_name": "status_flag",
         "flag_values": np.array([int(status) for status in Status], dtype="i1"),
         "flag_meanings": " ".join(status.name for status in Status),
     }
-    return xr.Variable("realization", np.array([int(r.status) for r in records], dtype="i1"), flags)
+    return xr.Variable("realization" if np.ndim(statuses) else (), statuses, flags)
 
 
-def _influence(records: Sequence[Record]) -> Variables:
-    finished = [np.asarray(record.values["displaced"]) for record in records if record.status not in FAILED]
-    n_particles = np.shape(records[0].values["displaced"])
-    share = np.sum(finished, axis=0, dtype="i8") / len(finished) if finished else np.full(n_particles, np.nan)
+def _influence(table: Table) -> Variables:
+    total, n = table.totals["displaced"]
+    share = total / n if n else np.full(total.shape, np.nan)
     name = "share of the realizations without failure in which the particle is displaced farther than slide.displaced"
     return {"influence_probability": _variable("particle", share, "1", name)}
 
 
-def _deterministic(baseline: Record) -> Variables:
+def _deterministic(baseline: Record, ground: PreparedGround) -> Variables:
+    values = missing_values(sizes(ground)) | dict(baseline.values)
     runout, final = QUANTITIES["runout"], QUANTITIES["final_runout"]
     with_mean = "of the deterministic run with mean strengths"
     return {
-        "deterministic_runout": _variable("time", baseline.values["runout"], "m", f"{runout.long_name}, {with_mean}"),
-        "deterministic_final_runout": _variable(
-            (), baseline.values["final_runout"], "m", f"{final.long_name}, {with_mean}"
-        ),
-        "deterministic_status": xr.Variable((), np.int8(baseline.status), _status([baseline]).attrs),
+        "deterministic_runout": _variable("time", values["runout"], "m", f"{runout.long_name}, {with_mean}"),
+        "deterministic_final_runout": _variable((), values["final_runout"], "m", f"{final.long_name}, {with_mean}"),
+        "deterministic_status": _status(np.int8(baseline.status)),
     }
 
 

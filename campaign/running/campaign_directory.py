@@ -126,9 +126,8 @@ class CampaignDirectory:
 
     def _result(self, ground: PreparedGround, tally: Tally, verdict: str, found: Discretisation | None) -> xr.Dataset:
         store = self.level.store
-        records = [store.read(realization) for realization in range(tally.prefix)]
         about = attributes(self.scene, manifest.read(self.path), verdict)
-        return dataset.build(ground, records, store.read(BASELINE), tally.history(), about, found)
+        return dataset.build(ground, store.columns(tally.prefix), store.read(BASELINE), tally.history(), about, found)
 
 
 def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:

@@ -50,7 +50,7 @@ class Alone:
     def compute(self, order: Order, dispatcher: Dispatcher, aside: Callable[[], None]) -> None:
         """Compute one realization after another."""
         worker = worker_of(order, 0, self._stop, aside)
-        work(worker, dispatcher.exchange(Report(None)), dispatcher.exchange)
+        work(worker, dispatcher.exchange(Report(None)), dispatcher.exchange_here)
         aside()
 
 

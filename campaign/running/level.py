@@ -1,8 +1,10 @@
 """The realizations of a campaign on one mesh: the scene's own, or half its cell for the discretisation error."""
 
+import contextlib
+from collections.abc import Callable
 from pathlib import Path
 
-from campaign.record import Record, Status, missing_values, summarize
+from campaign.record import Record, Status, missing_values
 from campaign.scene import Scene
 from campaign.simulation.contract import PreparedGround, sizes
 from campaign.statistics.tally import Tally, tally_of
@@ -24,7 +26,9 @@ class Level:
         """Make ready for work, clearing up after a kill; returns sentences worth a look."""
         self.store.create()
         self._attempts.create()
-        return self.store.recover()
+        notes = self.store.recover()
+        self._tidy()
+        return notes
 
     def give_up_crashed(self, ground: PreparedGround) -> None:
         """Write records for the realizations that took the process down too often."""
@@ -37,6 +41,23 @@ class Level:
     def tally(self) -> Tally:
         """Return the account of what earlier starts have finished or given up."""
         tally = tally_of(self.scene)
-        for record in self.store.read_all():
-            tally.add(summarize(record))
+        for summary in self.store.summaries()[0].values():
+            tally.add(summary)
         return tally
+
+    def tidier(self, tally: Tally) -> Callable[[], None]:
+        """Return what packs the records now and then while `tally` grows, so that a kill leaves few loose ones."""
+        packed_at = tally.done
+
+        def tidy() -> None:
+            nonlocal packed_at
+            if tally.done >= packed_at + self.store.packs.SIZE:
+                packed_at = tally.done
+                self._tidy()
+
+        return tidy
+
+    def _tidy(self) -> None:
+        """Pack what can be packed; where there is no room for it, the loose records do as well."""
+        with contextlib.suppress(OSError):
+            self.store.pack()

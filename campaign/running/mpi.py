@@ -112,7 +112,7 @@ class Ranks:
         first = [dispatcher.exchange(Report(None)) for _ in range(self.size)]
         service = Service(self._comm, first, dispatcher.exchange, aside)
         worker = worker_of(order, 0, self._stop, service.poll)
-        work(worker, self._comm.scatter(first), dispatcher.exchange)
+        work(worker, self._comm.scatter(first), dispatcher.exchange_here)
         service.finish()
 
 

@@ -108,7 +108,7 @@ def conduct(
 
     def hand_out(level: Level, ground: PreparedGround, tally: Tally) -> str:
         order = Order(ground, level.directory, level.scene.campaign.realization_timeout, end)
-        dispatcher, progress = Dispatcher(tally, _obstacle(stop, end)), Progress(tally)
+        dispatcher, progress = Dispatcher(tally, _obstacle(stop, end), level.tidier(tally)), Progress(tally)
         crew.compute(order, dispatcher, lambda: dispatcher.observe(progress.tick))
         return dispatcher.stopped
 

@@ -33,6 +33,13 @@ def publish(temporary: Path, path: Path) -> None:
     _sync(path.parent)
 
 
+def set_aside(path: Path) -> Path:
+    """Give a damaged file a name under which nobody reads it; returns that."""
+    aside = path.with_name(f"{path.name}.damaged")
+    path.replace(aside)
+    return aside
+
+
 def temporary_name(path: Path) -> Path:
     """Return a hidden name beside `path` that no other process uses."""
     return path.with_name(f".{path.name}.{socket.gethostname()}.{os.getpid()}")

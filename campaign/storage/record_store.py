@@ -1,42 +1,42 @@
 """The records of a campaign on disk: one file a realization, later packed by the hundred.
 
-`records/realization-000123.h5` and `records/baseline.h5` appear whole or not at all; `packs/p00000.h5` holds
-`PACK_SIZE` consecutive realizations, a group each. A loose record takes precedence over a packed one. Any rank may
-write records; only rank 0, which holds the directory's lock, recovers and packs.
+A loose record takes precedence over a packed one. Any rank may write records; only rank 0, which holds the directory's
+lock, recovers and packs.
 """
 
-import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
-import h5py
+import numpy as np
 
 from campaign.errors import DamagedRecordError
-from campaign.record import Record
+from campaign.record import RealizationSummary, Record
 from campaign.seeds import BASELINE
-from campaign.storage.files import write_atomically
-from campaign.storage.layout import PACKS, RECORDS
-from campaign.storage.record_format import hdf5_bytes, read_group, to_bytes
-
-PACK_SIZE = 256
+from campaign.storage.columns import Columns, columns_of
+from campaign.storage.loose_records import LooseRecords
+from campaign.storage.packs import Packs
 
 
 class RecordStore:
-    """The finished realizations of the campaign in `directory`."""
+    """The finished realizations of the campaign in `directory`.
+
+    `recover` reads each record once. What the campaign asks for next is then in memory: a summary of each, and the
+    whole record where it is not packed.
+    """
 
     def __init__(self, directory: Path) -> None:
-        self.records = directory / RECORDS
-        self.packs = directory / PACKS
+        self.loose = LooseRecords(directory)
+        self.packs = Packs(directory)
+        self.records = self.loose.directory
 
     def create(self) -> None:
         """Make the directories; raises OSError where that is not allowed."""
-        self.records.mkdir(parents=True, exist_ok=True)
-        self.packs.mkdir(parents=True, exist_ok=True)
+        self.loose.directory.mkdir(parents=True, exist_ok=True)
+        self.packs.directory.mkdir(parents=True, exist_ok=True)
 
     def write(self, record: Record) -> None:
         """Keep a record for good; raises OSError, leaving no trace, when the disk is full or not writable."""
-        write_atomically(self._loose_path(record.realization), to_bytes(record))
+        self.loose.write(record)
 
     def read(self, realization: int) -> Record:
         """Return a finished realization's record.
@@ -47,23 +47,54 @@ class RecordStore:
             When there is none.
         DamagedRecordError
             When its file is truncated or altered.
+        RefusalError
+            When only a newer version of the program can read it.
         """
-        path = self._loose_path(realization)
-        if path.exists():
-            return _read(path, "/")
-        path = self._pack_path(realization // PACK_SIZE)
-        if realization == BASELINE or not path.exists():
-            raise KeyError(realization)
-        return _read(path, file_name(realization))
+        try:
+            return self.loose.read(realization)
+        except FileNotFoundError:
+            return self._read_packed(realization)
+
+    def columns(self, count: int) -> Iterator[Columns]:
+        """Yield the records of realizations 0 to `count` - 1, in any order; raises like `read`.
+
+        What is not packed is asked for by name: on a network file system, the list of a directory in which another
+        node has written is up to a minute old.
+        """
+        loose, missing = self.loose.ids(), set(range(count))
+        for number in self.packs.numbers():
+            packed = self.packs.read(number)
+            wanted = (packed.realizations < count) & ~np.isin(packed.realizations, list(loose))
+            missing -= set(packed.realizations[wanted].tolist())
+            yield packed.take(wanted)
+        for realization in sorted(missing):
+            yield columns_of([self.read(realization)])
 
     def finished(self) -> set[int]:
-        """Return the ids that have a record, the baseline's included."""
-        return self._loose() | {number for path in self._pack_paths() for number in _packed(path)}
+        """Return the ids that have a readable record, the baseline's included."""
+        return set(self.summaries()[0])
 
-    def read_all(self) -> Iterator[Record]:
-        """Yield every record in the order of ids, the baseline first."""
-        for realization in sorted(self.finished()):
-            yield self.read(realization)
+    def summaries(self) -> tuple[dict[int, RealizationSummary], list[str]]:
+        """Return what decisions rest on, by id, and a sentence for each file that cannot be read.
+
+        Loose records are looked at first: one that a campaign at work packs meanwhile is found in its pack.
+        """
+        found: dict[int, RealizationSummary] = {}
+        damaged: list[str] = []
+        for realization in sorted(self.loose.ids()):
+            try:
+                found[realization] = self.loose.summary(realization)
+            except DamagedRecordError as error:
+                damaged.append(str(error))
+            except FileNotFoundError:
+                continue
+        for number in self.packs.numbers():
+            try:
+                for each in self.packs.summaries(number):
+                    found.setdefault(each.realization, each)
+            except DamagedRecordError as error:
+                damaged.append(str(error))
+        return found, damaged
 
     def recover(self) -> list[str]:
         """Clear what a killed campaign left behind, and set damaged files aside so that their ids are run again.
@@ -73,85 +104,54 @@ class RecordStore:
         list of str
             A sentence for each damaged file, which is kept under the name `*.damaged`.
         """
-        for path in (*self.records.glob(".*"), *self.packs.glob(".*")):
-            path.unlink()
-        sentences = [self._unpack_damaged(path) for path in self._pack_paths()]
-        sentences += [self._check_loose(number) for number in sorted(self._loose())]
+        for directory in (self.loose.directory, self.packs.directory):
+            for path in directory.glob(".*"):
+                if path.is_file():
+                    path.unlink()
+        sentences = [self._check_pack(number) for number in self.packs.numbers()]
+        sentences += [self.loose.check(realization) for realization in sorted(self.loose.ids())]
         return [sentence for sentence in sentences if sentence]
 
     def pack(self) -> None:
-        """Move complete runs of `PACK_SIZE` loose records into packs, which spares a cluster's inodes."""
-        loose = self._loose()
-        for number in sorted({realization // PACK_SIZE for realization in loose - {BASELINE}}):
-            block = range(number * PACK_SIZE, (number + 1) * PACK_SIZE)
-            if loose.issuperset(block):
-                content = hdf5_bytes({file_name(k): self.read(k) for k in block})
-                write_atomically(self._pack_path(number), content)
-                for realization in block:
-                    self._loose_path(realization).unlink()
-
-    def _check_loose(self, realization: int) -> str:
-        try:
-            self.read(realization)
-        except DamagedRecordError as error:
-            aside = _set_aside(self._loose_path(realization))
-            return f"{error} It is set aside as {aside.name}, and realization {realization} is run again."
-        return ""
-
-    def _unpack_damaged(self, path: Path) -> str:
-        """Turn a damaged pack back into loose records, as far as they are whole."""
-        block = range(number := int(path.stem[1:]) * PACK_SIZE, number + PACK_SIZE)
-        whole, lost = [], 0
-        for realization in block:
+        """Move complete runs of `Packs.SIZE` loose records into packs; raises OSError when the disk is full."""
+        size, loose = self.packs.SIZE, self.loose.ids() - {BASELINE}
+        for number in sorted({realization // size for realization in loose}):
+            block = set(range(number * size, (number + 1) * size))
             try:
-                whole.append(_read(path, file_name(realization)))
-            except DamagedRecordError:
-                lost += 1
-        if not lost:
-            return ""
+                if block <= loose | self._packed(number):
+                    self._pack(number, block & loose)
+            except (DamagedRecordError, ValueError):  # the next start sets a damaged one aside
+                continue
+
+    def _pack(self, number: int, loose: set[int]) -> None:
+        """Merge loose records into a pack; raises ValueError when they are not of one shape."""
+        packed = self.packs.read(number).records() if self._packed(number) else []
+        records = {record.realization: record for record in packed}
+        records |= {realization: self.loose.read(realization) for realization in loose}
+        self.packs.write(number, columns_of([records[realization] for realization in sorted(records)]))
+        for realization in loose:
+            self.loose.remove(realization)
+
+    def _packed(self, number: int) -> set[int]:
+        """Return the ids in a pack; raises like `Packs.summaries`."""
+        exists = self.packs.path(number).exists()
+        return {each.realization for each in self.packs.summaries(number)} if exists else set()
+
+    def _check_pack(self, number: int) -> str:
+        """Turn a damaged pack back into loose records, as far as they are whole."""
+        whole, sentence = self.packs.check(number)
+        loose = self.loose.ids()
         for record in whole:
-            if not self._loose_path(record.realization).exists():
+            if record.realization not in loose:
                 self.write(record)
-        aside = _set_aside(path)
-        return f"{path} is damaged; it is set aside as {aside.name}, and {lost} of its realizations are run again."
+        return sentence
 
-    def _loose(self) -> set[int]:
-        numbers = {int(path.stem.partition("-")[2]) for path in self.records.glob("realization-*.h5")}
-        return numbers | ({BASELINE} if self._loose_path(BASELINE).exists() else set())
-
-    def _pack_paths(self) -> list[Path]:
-        return sorted(self.packs.glob("p*.h5"))
-
-    def _loose_path(self, realization: int) -> Path:
-        return self.records / f"{file_name(realization)}.h5"
-
-    def _pack_path(self, number: int) -> Path:
-        return self.packs / f"p{number:05d}.h5"
-
-
-def file_name(realization: int) -> str:
-    """Return what files and groups of a realization are called, without a suffix."""
-    return "baseline" if realization == BASELINE else f"realization-{realization:06d}"
-
-
-def _packed(path: Path) -> list[int]:
-    try:
-        with h5py.File(path, "r") as file:
-            return [int(match[1]) for name in file if (match := re.fullmatch(r"realization-(\d+)", name))]
-    except OSError as error:
-        raise DamagedRecordError(f"The pack {path} cannot be opened ({error}).") from error
-
-
-def _read(path: Path, name: str) -> Record:
-    try:
-        with h5py.File(path, "r") as file:
-            group: Any = file[name]
-            return read_group(group, f"{path}{name if name != '/' else ''}")
-    except (OSError, KeyError) as error:
-        raise DamagedRecordError(f"The record in {path} cannot be opened ({error}).") from error
-
-
-def _set_aside(path: Path) -> Path:
-    aside = path.with_name(path.name + ".damaged")
-    path.replace(aside)
-    return aside
+    def _read_packed(self, realization: int) -> Record:
+        number = realization // self.packs.SIZE
+        if realization == BASELINE or not self.packs.path(number).exists():
+            raise KeyError(realization)
+        packed = self.packs.read(number)
+        (rows,) = np.nonzero(packed.realizations == realization)
+        if rows.size == 0:
+            raise KeyError(realization)
+        return packed.record(int(rows[0]))

@@ -1,10 +1,24 @@
 """Made-up records for tests."""
 
+from types import SimpleNamespace
+
 import numpy as np
 
 from campaign.record import QUANTITIES, Record, Status
 
 SIZES = {"time": 5, "x": 3, "particle": 4}
+
+GROUND = SimpleNamespace(
+    n_particles=SIZES["particle"],
+    toe_x=35.0,
+    coordinates={
+        "time": np.linspace(0, 1, SIZES["time"]),
+        "x": np.arange(float(SIZES["x"])),
+        "particle_x": np.arange(float(SIZES["particle"])),
+        "particle_y": np.ones(SIZES["particle"]),
+    },
+)
+"""What a dataset needs of the ground whose records these are."""
 
 
 def make_record(realization: int, status: Status = Status.slid, reason: str = "") -> Record:

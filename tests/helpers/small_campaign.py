@@ -10,6 +10,7 @@ from campaign.simulation.contract import sizes
 from campaign.simulation.ground import prepare
 from campaign.statistics.tally import tally_of
 from campaign.storage import manifest
+from campaign.storage.columns import columns_of
 from campaign.storage.provenance import attributes
 from campaign.storage.record_store import RecordStore
 
@@ -41,7 +42,7 @@ def conclude(directory, scene, ground, records):
     history = tally.history()
     about = attributes(scene, manifest.read(directory), history.verdict)
     kept = records[1 : 1 + tally.prefix]
-    dataset.write(dataset.build(ground, kept, records[0], history, about), directory / "results.nc")
+    dataset.write(dataset.build(ground, [columns_of(kept)], records[0], history, about), directory / "results.nc")
 
 
 def made_up(ground, realization, runout, status=Status.slid, reason=""):

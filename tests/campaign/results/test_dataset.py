@@ -1,29 +1,18 @@
 """The dataset is what design and CF promise, and opens with xarray alone."""
 
-from types import SimpleNamespace
-
 import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
-from records import SIZES, make_record
+from records import GROUND, SIZES, make_record
 
 from campaign.record import QUANTITIES, Status
 from campaign.results import dataset
 from campaign.seeds import BASELINE
 from campaign.statistics.convergence import Rule, history
 from campaign.statistics.discretisation import Discretisation
+from campaign.storage.columns import columns_of
 
-SETUP = SimpleNamespace(
-    n_particles=SIZES["particle"],
-    toe_x=35.0,
-    coordinates={
-        "time": np.linspace(0, 1, SIZES["time"]),
-        "x": np.arange(float(SIZES["x"])),
-        "particle_x": np.arange(float(SIZES["particle"])),
-        "particle_y": np.ones(SIZES["particle"]),
-    },
-)
 STATUSES = [Status.slid, Status.no_slide, Status.crashed, *[Status.slid] * 67]
 RECORDS = [make_record(k, status, "no mass" if status is Status.crashed else "") for k, status in enumerate(STATUSES)]
 
@@ -35,7 +24,9 @@ def path(tmp_path_factory):
     estimates = history(runouts, usable, Rule(0.01, 0.1, 0.95, 20, 25), 10.0)
     pairs = Discretisation(1.0, np.array([-0.5, np.nan, -1.5]), 0.25, 0.95)
     about = {"seed": "7", "scene": "title = 'é'\n"}
-    built = dataset.build(SETUP, RECORDS, make_record(BASELINE), estimates, about, pairs)
+    built = dataset.build(
+        GROUND, [columns_of(RECORDS[:30]), columns_of(RECORDS[30:])], make_record(BASELINE), estimates, about, pairs
+    )
     target = tmp_path_factory.mktemp("results") / "results.nc"
     dataset.write(built, target)
     return target

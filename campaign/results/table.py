@@ -1,0 +1,84 @@
+"""All realizations below each other: from the blocks in which records are kept to one array for each quantity."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from campaign.record import FAILED, QUANTITIES, fill_of
+from campaign.storage.columns import Columns
+
+TOTALS = ("displaced",)
+"""Quantities of which only the sum over the realizations without failure is kept."""
+
+
+class Total(NamedTuple):
+    """The sum of a quantity over the realizations without failure that hold it, and their number."""
+
+    sum: NDArray[np.int64]
+    n: int
+
+
+class Table(NamedTuple):
+    """The records of realizations 0, 1, 2, ...
+
+    Attributes
+    ----------
+    statuses, reasons : arrays (realization,)
+    values : dict
+        By the name of the quantity, an array (realization, ...); NaN, or 0 for integers, where a record lacks it.
+    totals : dict
+        By the name of the quantity.
+    """
+
+    statuses: NDArray[np.int8]
+    reasons: NDArray[np.object_]
+    values: dict[str, NDArray[Any]]
+    totals: dict[str, Total]
+
+    @property
+    def n(self) -> int:
+        """Number of realizations."""
+        return len(self.statuses)
+
+
+def gather(blocks: Iterable[Columns], count: int, sizes: Mapping[str, int]) -> Table:
+    """Put the records of realizations 0 to `count` - 1 below each other; `sizes` maps dimension to length.
+
+    A quantity that this version does not know stays in the record.
+
+    Raises
+    ------
+    ValueError
+        When the blocks do not hold each of the realizations once.
+    """
+    table = _empty(count, sizes)
+    seen = np.zeros(count, dtype=np.int64)
+    for block in blocks:
+        rows = block.realizations
+        seen[rows] += 1
+        table.statuses[rows], table.reasons[rows] = block.statuses, block.reasons
+        for name in table.values.keys() & block.values.keys():
+            table.values[name][rows] = block.values[name]
+        for name in table.totals.keys() & block.values.keys():
+            table.totals[name] = _with(table.totals[name], block, name)
+    if (seen != 1).any():
+        raise ValueError(f"Of realization {np.argmax(seen != 1)} there are {seen[seen != 1][0]} records, not one.")
+    return table
+
+
+def _empty(count: int, sizes: Mapping[str, int]) -> Table:
+    shapes = {name: [sizes[dim] for dim in quantity.dims] for name, quantity in QUANTITIES.items()}
+    values = {
+        name: np.full([count, *shapes[name]], fill_of(quantity.dtype), quantity.dtype)
+        for name, quantity in QUANTITIES.items()
+        if name not in TOTALS
+    }
+    totals = {name: Total(np.zeros(shapes[name], dtype=np.int64), 0) for name in TOTALS}
+    return Table(np.zeros(count, dtype=np.int8), np.full(count, "", dtype=object), values, totals)
+
+
+def _with(total: Total, block: Columns, name: str) -> Total:
+    finished = block.values[name][~np.isin(block.statuses, list(FAILED))]
+    return Total(total.sum + finished.sum(axis=0, dtype=np.int64), total.n + len(finished))

@@ -1,0 +1,78 @@
+"""Several records as columns: an array for each quantity, with a row for each realization."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from campaign.record import SUMMARIZED, RealizationSummary, Record, Status, fill_of
+from campaign.storage.record_format import as_declared, plain
+
+
+@dataclass(frozen=True)
+class Columns:
+    """The records of several realizations.
+
+    Parameters
+    ----------
+    realizations, statuses : int arrays (row,)
+    reasons : object array (row,)
+        Of text.
+    values : dict
+        By the name of the quantity, an array (row, ...). A number that a record lacks is NaN, or 0 for integers.
+    """
+
+    realizations: NDArray[np.int64]
+    statuses: NDArray[np.int8]
+    reasons: NDArray[np.object_]
+    values: Mapping[str, NDArray[Any]]
+
+    def __len__(self) -> int:
+        return len(self.realizations)
+
+    def take(self, rows: NDArray[np.bool_]) -> "Columns":
+        """Return the rows of a mask."""
+        values = {name: column[rows] for name, column in self.values.items()}
+        return Columns(self.realizations[rows], self.statuses[rows], self.reasons[rows], values)
+
+    def record(self, row: int) -> Record:
+        """Return one row as a record; its arrays are views."""
+        values = {name: plain(column[row]) for name, column in self.values.items()}
+        return Record(int(self.realizations[row]), Status(int(self.statuses[row])), str(self.reasons[row]), values)
+
+    def records(self) -> list[Record]:
+        """Return all rows as records."""
+        return [self.record(row) for row in range(len(self))]
+
+    def summaries(self) -> list[RealizationSummary]:
+        """Return the part of each row that decisions rest on."""
+        absent = np.full(len(self), np.nan)
+        numbers = [self.values.get(name, absent).tolist() for name in SUMMARIZED]
+        statuses = map(Status, self.statuses.tolist())
+        return [*map(RealizationSummary, self.realizations.tolist(), statuses, *numbers)]
+
+
+def columns_of(records: Sequence[Record]) -> Columns:
+    """Put records below each other.
+
+    Raises
+    ------
+    ValueError
+        When a quantity has not the same shape in all of them.
+    """
+    names = dict.fromkeys(name for record in records for name in record.values)
+    return Columns(
+        np.array([record.realization for record in records], dtype=np.int64),
+        np.array([int(record.status) for record in records], dtype=np.int8),
+        np.array([record.reason for record in records], dtype=object),
+        {name: _column(name, records) for name in names},
+    )
+
+
+def _column(name: str, records: Sequence[Record]) -> NDArray[Any]:
+    held = [None if name not in record.values else as_declared(name, record.values[name]) for record in records]
+    like = next(value for value in held if value is not None)
+    missing = np.full(like.shape, fill_of(like.dtype), like.dtype)
+    return np.stack([missing if value is None else value for value in held], dtype=like.dtype)

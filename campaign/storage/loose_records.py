@@ -1,0 +1,81 @@
+"""The records that have a file of their own."""
+
+from pathlib import Path
+
+from campaign.errors import DamagedRecordError
+from campaign.record import RealizationSummary, Record, summarize
+from campaign.storage.files import set_aside, write_atomically
+from campaign.storage.layout import RECORDS, realization_file, realization_of
+from campaign.storage.record_format import from_bytes, summarized_from_bytes, to_bytes
+
+
+class LooseRecords:
+    """The files `records/realization-000123.h5` and `records/baseline.h5` of a results directory.
+
+    A record that was read and verified is kept in memory as long as it is loose.
+    """
+
+    def __init__(self, directory: Path) -> None:
+        self.directory = directory / RECORDS
+        self._verified: dict[int, Record] = {}
+        self._summaries: dict[int, RealizationSummary] = {}
+
+    def path(self, realization: int) -> Path:
+        """Return the file of a realization, whether or not it is there."""
+        return self.directory / realization_file(realization)
+
+    def ids(self) -> set[int]:
+        """Return the realizations that have a file; what other files are called is no matter."""
+        numbers = (realization_of(path.name) for path in self.directory.glob("*.h5"))
+        return {number for number in numbers if number is not None}
+
+    def write(self, record: Record) -> None:
+        """Keep a record for good; raises OSError, leaving no trace, when the disk is full or not writable."""
+        write_atomically(self.path(record.realization), to_bytes(record))
+
+    def read(self, realization: int) -> Record:
+        """Return a record; its file is read once.
+
+        Raises
+        ------
+        FileNotFoundError
+            When there is none.
+        DamagedRecordError
+            When its file is truncated or altered, or holds another realization.
+        RefusalError
+            When only a newer version of the program can read it.
+        """
+        if realization not in self._verified:
+            path = self.path(realization)
+            self._verified[realization] = _of(realization, from_bytes(path.read_bytes(), str(path)), path)
+        return self._verified[realization]
+
+    def summary(self, realization: int) -> RealizationSummary:
+        """Return the part of a record that decisions rest on; raises like `read`."""
+        if realization in self._verified:
+            return summarize(self._verified[realization])
+        if realization not in self._summaries:
+            path = self.path(realization)
+            record = _of(realization, summarized_from_bytes(path.read_bytes(), str(path)), path)
+            self._summaries[realization] = summarize(record)
+        return self._summaries[realization]
+
+    def remove(self, realization: int) -> None:
+        """Remove a record that is kept elsewhere."""
+        self.path(realization).unlink()
+        self._verified.pop(realization, None)
+
+    def check(self, realization: int) -> str:
+        """Set a damaged record aside so that its id is run again; returns a sentence when it was, else ""."""
+        try:
+            self.read(realization)
+        except DamagedRecordError as error:
+            aside = set_aside(self.path(realization))
+            return f"{error} It is set aside as {aside.name}, and realization {realization} is run again."
+        return ""
+
+
+def _of(realization: int, record: Record, path: Path) -> Record:
+    if record.realization != realization:
+        raise DamagedRecordError(f"The record in {path} is that of realization {record.realization}.")
+    return record

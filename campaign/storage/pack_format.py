@@ -1,0 +1,136 @@
+"""A pack as bytes: the records of consecutive realizations as columns of an HDF5 file, behind a seal.
+
+The seal covers the whole file. A checksum for each row stands beside it, by which the whole rows of a damaged pack are
+told from the others.
+"""
+
+import hashlib
+import io
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from campaign.errors import DamagedRecordError
+from campaign.record import SUMMARIZED, RealizationSummary, Record, Status
+from campaign.storage import format_0
+from campaign.storage.columns import Columns, columns_of
+from campaign.storage.record_format import as_declared, plain, write_values
+from campaign.storage.seal import SIZE, check_bytes, seal_of, sealed
+
+VALUES = "values"
+"""The group of the quantities."""
+
+READ_ERRORS = (OSError, KeyError, ValueError, RuntimeError, TypeError)
+"""What HDF5 makes of damaged bytes."""
+
+
+def to_bytes(columns: Columns) -> bytes:
+    """Return the content of a pack; flags are compressed, a row at a time, so that damage stays in its row."""
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w", userblock_size=SIZE) as file:
+        file["realization"] = columns.realizations
+        file["status"] = columns.statuses
+        file.create_dataset("reason", data=columns.reasons, dtype=h5py.string_dtype())
+        file["checksum"] = np.array([_checksum(record) for record in columns.records()], dtype="S64")
+        values = file.create_group(VALUES)
+        for name, column in columns.values.items():
+            rows = {"compression": 1, "chunks": (1, *column.shape[1:])} if column.dtype == np.uint8 else {}
+            write_values(values, name, column, **rows)
+    return sealed(buffer.getvalue())
+
+
+def read(path: Path) -> Columns:
+    """Read a pack and verify it.
+
+    Raises
+    ------
+    DamagedRecordError
+        When anything in it is not as it was written.
+    RefusalError
+        When only a newer version of the program can read it.
+    """
+    content, place = _content(path), f"The pack {path}"
+    seal = seal_of(content, place)
+    if seal is not None:
+        check_bytes(content, seal, place)
+    try:
+        with h5py.File(io.BytesIO(content), "r") as file:
+            if seal is None:
+                return columns_of([format_0.read_group(file[name], place) for name in file])
+            return _columns(file, list(file[VALUES]))
+    except READ_ERRORS as error:
+        raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
+
+
+def read_summaries(path: Path) -> list[RealizationSummary]:
+    """Read what decisions rest on, a few columns; nothing is verified. Raises like `read`."""
+    place = f"The pack {path}"
+    try:
+        with path.open("rb") as file:
+            if seal_of(file.read(SIZE), place) is None:
+                return read(path).summaries()
+        with h5py.File(path, "r") as file:
+            return _columns(file, SUMMARIZED).summaries()
+    except READ_ERRORS as error:
+        raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
+
+
+def whole_records(path: Path) -> list[Record]:
+    """Return the records of a damaged pack that are as they were written."""
+    try:
+        with h5py.File(path, "r") as file:
+            if VALUES not in file:
+                return _whole(lambda name: format_0.read_group(file[name], str(path)), file)
+            return _whole(lambda row: _row(file, row), range(len(file["realization"])))
+    except READ_ERRORS:
+        return []
+
+
+def is_current(path: Path) -> bool:
+    """Whether a pack is of a numbered format."""
+    with path.open("rb") as file:
+        return seal_of(file.read(SIZE), f"The pack {path}") is not None
+
+
+def _content(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise DamagedRecordError(f"The pack {path} cannot be opened ({error}).") from error
+
+
+def _columns(file: h5py.File, names: Iterable[str]) -> Columns:
+    values = {name: file[VALUES][name][()] for name in names}
+    return Columns(file["realization"][()], file["status"][()], file["reason"].asstr()[()], values)
+
+
+def _row(file: h5py.File, row: int) -> Record:
+    """Read one row and verify it by its own checksum."""
+    values = {name: plain(column[row]) for name, column in file[VALUES].items()}
+    status = Status(int(file["status"][row]))
+    record = Record(int(file["realization"][row]), status, file["reason"].asstr()[row], values)
+    if file["checksum"][row].decode() != _checksum(record):
+        raise DamagedRecordError(f"Row {row} does not match its checksum.")
+    return record
+
+
+def _whole(read_one: Callable[[Any], Record], places: Iterable[Any]) -> list[Record]:
+    whole = []
+    for place in places:
+        try:
+            whole.append(read_one(place))
+        except (*READ_ERRORS, DamagedRecordError):
+            continue
+    return whole
+
+
+def _checksum(record: Record) -> str:
+    digest = hashlib.sha256(f"{record.realization} {int(record.status)} {record.reason}".encode())
+    for name, value in sorted(record.values.items()):
+        array = as_declared(name, value)
+        digest.update(f"{name} {array.dtype.str} {array.shape}".encode())
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()

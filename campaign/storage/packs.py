@@ -1,0 +1,76 @@
+"""The packs: files of consecutive realizations, which spare a cluster's inodes and are read in one go."""
+
+from pathlib import Path
+
+from campaign.errors import DamagedRecordError
+from campaign.record import RealizationSummary, Record
+from campaign.storage import pack_format
+from campaign.storage.columns import Columns
+from campaign.storage.files import set_aside, write_atomically
+from campaign.storage.layout import PACKS, pack_file, pack_of
+
+
+class Packs:
+    """The files `packs/p00003.h5` of a results directory; that one holds `SIZE` realizations from 3 `SIZE` on."""
+
+    SIZE = 256
+
+    def __init__(self, directory: Path) -> None:
+        self.directory = directory / PACKS
+        self._summaries: dict[int, list[RealizationSummary]] = {}
+
+    def path(self, number: int) -> Path:
+        """Return the file of a pack, whether or not it is there."""
+        return self.directory / pack_file(number)
+
+    def numbers(self) -> list[int]:
+        """Return the numbers of the packs, in order."""
+        found = (pack_of(path.name) for path in self.directory.glob("*.h5"))
+        return sorted(number for number in found if number is not None)
+
+    def read(self, number: int) -> Columns:
+        """Return the records of a pack.
+
+        Raises
+        ------
+        DamagedRecordError
+            When it is not as it was written.
+        RefusalError
+            When only a newer version of the program can read it.
+        """
+        return pack_format.read(self.path(number))
+
+    def summaries(self, number: int) -> list[RealizationSummary]:
+        """Return the part of each record that decisions rest on; the file is read once. Raises like `read`."""
+        if number not in self._summaries:
+            self._summaries[number] = pack_format.read_summaries(self.path(number))
+        return self._summaries[number]
+
+    def write(self, number: int, columns: Columns) -> None:
+        """Keep a pack for good; raises OSError, leaving the old one, when the disk is full or not writable."""
+        write_atomically(self.path(number), pack_format.to_bytes(columns))
+        self._summaries[number] = columns.summaries()
+
+    def check(self, number: int) -> tuple[list[Record], str]:
+        """Verify a pack, and bring one of an older format up to date.
+
+        Returns
+        -------
+        whole, sentence
+            The whole records of a damaged pack, which is set aside, and a sentence about it; nothing and "" of a
+            pack that is not damaged.
+        """
+        path = self.path(number)
+        try:
+            columns = self.read(number)
+        except DamagedRecordError:
+            whole = pack_format.whole_records(path)
+            lost, aside = self.SIZE - len(whole), set_aside(path)
+            return whole, (
+                f"{path} is damaged; it is set aside as {aside.name}, and {lost} of its realizations are run again."
+            )
+        if pack_format.is_current(path):
+            self._summaries[number] = columns.summaries()
+        else:
+            self.write(number, columns)
+        return [], ""
