@@ -16,6 +16,7 @@ import pytest
 import xarray as xr
 
 from campaign.commands.status import status
+from campaign.storage.lock import DirectoryLock
 
 MPIRUN = Path(sys.prefix) / "bin" / "mpirun"
 STAND_IN = Path(__file__).parents[1] / "helpers" / "stand_in.py"
@@ -57,6 +58,14 @@ def wait_for_records(directory, count):
         time.sleep(0.02)
 
 
+def wait_for_the_end(directory):
+    """Ranks outlive a killed mpirun by a moment."""
+    deadline = time.monotonic() + 30
+    while DirectoryLock(directory).is_held():
+        assert time.monotonic() < deadline, "rank 0 lives on"
+        time.sleep(0.02)
+
+
 @pytest.fixture(scope="module")
 def alone(tmp_path_factory):
     directory = tmp_path_factory.mktemp("alone") / "out"
@@ -85,6 +94,7 @@ def test_a_kill_in_the_middle_leaves_no_trace(alone, tmp_path):
     wait_for_records(directory, 10)
     os.killpg(process.pid, signal.SIGKILL)
     process.communicate()
+    wait_for_the_end(directory)
     assert not (directory / "results.nc").exists()
     assert "killed; give the same command again" in status(directory)
     code, output = campaign(directory, ranks=3)
