@@ -1,7 +1,7 @@
-"""One realization's result: what is measured, declared once."""
+"""One realization's result, and what its numbers mean."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Any, NamedTuple, TypeAlias
 
@@ -30,33 +30,34 @@ USABLE = frozenset({Status.slid, Status.not_settled})
 """In the statistics of run-out, which are conditional on sliding (a run-out not yet settled is a lower bound)."""
 
 
-class Quantity(NamedTuple):
-    """What a number of a record means."""
+class Average(NamedTuple):
+    """What the mean of a quantity over the realizations without failure is called in the dataset."""
+
+    name: str
+    long_name: str
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What a number of a record means.
+
+    Parameters
+    ----------
+    dims
+        Of the array; none for a single number.
+    units, long_name
+        After CF.
+    dtype
+        Of the array; what is missing is NaN, or 0 for integers.
+    average
+        The dataset holds this in its place, where one for each realization would be too large.
+    """
 
     dims: tuple[str, ...]
     units: str
     long_name: str
     dtype: str = "f8"
-
-
-QUANTITIES: dict[str, Quantity] = {
-    "runout": Quantity(("time",), "m", "advance of the sliding front from the initial toe"),
-    "max_displacement": Quantity(("time",), "m", "largest particle displacement since release"),
-    "kinetic_energy": Quantity(("time",), "J/m", "kinetic energy per metre run"),
-    "final_runout": Quantity((), "m", "final advance of the front-most slid particle from the initial toe"),
-    "final_runout_mass": Quantity(
-        (), "m", "final advance of the front beyond which slide.front_area of slid material lies"
-    ),
-    "sliding_volume": Quantity((), "m3/m", "volume displaced farther than slide.displaced, per metre run"),
-    "detached_volume": Quantity((), "m3/m", "volume that has come apart and lies ahead of the slide, per metre run"),
-    "settle_time": Quantity((), "s", "time from release to rest"),
-    "energy_error": Quantity((), "1", "energy imbalance over the work of gravity"),
-    "wall_time": Quantity((), "s", "wall-clock time of the simulation"),
-    "steps": Quantity((), "1", "number of time steps", "i8"),
-    "deposit_surface": Quantity(("x",), "m", "final elevation of the ground surface"),
-    "displaced": Quantity(("particle",), "1", "1 where a particle is displaced farther than slide.displaced", "u1"),
-}
-"""Everything a realization reports; records and the dataset follow from this table."""
+    average: Average | None = None
 
 
 @dataclass(frozen=True)
@@ -70,14 +71,16 @@ class Record:
     status, reason
         How it ended, and the sentence behind a failure or a flag ("" where there is neither).
     values
-        By name, in the units that `QUANTITIES` gives. One that was kept by another version may lack some quantities and
-        hold others.
+        By the name of the quantity. A record that was kept by another version may lack some and hold others.
+    units
+        Of the values, by the same names.
     """
 
     realization: int
     status: Status
     reason: str
     values: Mapping[str, Value]
+    units: Mapping[str, str] = field(default_factory=dict)
 
 
 class RealizationSummary(NamedTuple):
@@ -99,15 +102,27 @@ SUMMARIZED = ("final_runout", "wall_time")
 """The quantities of a summary."""
 
 
+def plain(value: Any) -> Value:
+    """Return a number without dimensions as Python's own."""
+    array = np.asarray(value)
+    number: Value = array if array.ndim else array.item()
+    return number
+
+
 def fill_of(dtype: Any) -> float | int:
     """Return what stands for a missing number: NaN, or 0 for integers."""
     return np.nan if np.dtype(dtype).kind == "f" else 0
 
 
-def missing_values(sizes: Mapping[str, int]) -> dict[str, Value]:
+def units_of(quantities: Mapping[str, Quantity]) -> dict[str, str]:
+    """Return the unit of each quantity."""
+    return {name: quantity.units for name, quantity in quantities.items()}
+
+
+def missing_values(quantities: Mapping[str, Quantity], sizes: Mapping[str, int]) -> dict[str, Value]:
     """Return the values of a realization without a result: NaN, or 0 for integers; `sizes` maps dimension to length."""
     values: dict[str, Value] = {}
-    for name, quantity in QUANTITIES.items():
+    for name, quantity in quantities.items():
         shape = [sizes[dim] for dim in quantity.dims]
         values[name] = np.full(shape, fill_of(quantity.dtype), dtype=quantity.dtype)
     return values

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from campaign.record import QUANTITIES, Quantity, Record, Status, missing_values
+from campaign.record import Quantity, Record, Status, missing_values
 from campaign.results.table import Table, gather
 from campaign.simulation.contract import PreparedGround, sizes
 from campaign.statistics.convergence import History
@@ -51,8 +51,10 @@ def build(
     discretisation
         What half the cell changes, where that is known.
     """
-    table = gather(blocks, int(history.realizations[-1]), sizes(ground))
-    variables = _per_realization(table) | _deterministic(baseline, ground) | _influence(table) | _convergence(history)
+    quantities = ground.quantities
+    table = gather(blocks, int(history.realizations[-1]), quantities, sizes(ground))
+    variables = _per_realization(table, quantities) | _averages(table, quantities)
+    variables |= _deterministic(baseline, ground) | _convergence(history)
     if discretisation is not None:
         variables |= _discretisation(discretisation)
     attributes = {"Conventions": "CF-1.11", "n_particles": ground.n_particles, "toe_x": ground.toe_x}
@@ -91,8 +93,8 @@ def _coordinates(ground: PreparedGround, table: Table, history: History) -> Vari
     }
 
 
-def _per_realization(table: Table) -> Variables:
-    variables = {name: _of_all(QUANTITIES[name], values) for name, values in table.values.items()}
+def _per_realization(table: Table, quantities: Mapping[str, Quantity]) -> Variables:
+    variables = {name: _of_all(quantities[name], values) for name, values in table.values.items()}
     variables["status"] = _status(table.statuses)
     reason = {"long_name": "why a realization failed or is flagged"}
     variables["reason"] = xr.Variable("realization", table.reasons, reason)
@@ -115,16 +117,20 @@ def _status(statuses: NDArray[np.int8] | np.int8) -> xr.Variable:
     return xr.Variable("realization" if np.ndim(statuses) else (), statuses, flags)
 
 
-def _influence(table: Table) -> Variables:
-    total, n = table.totals["displaced"]
-    share = total / n if n else np.full(total.shape, np.nan)
-    name = "share of the realizations without failure in which the particle is displaced farther than slide.displaced"
-    return {"influence_probability": _variable("particle", share, "1", name)}
+def _averages(table: Table, quantities: Mapping[str, Quantity]) -> Variables:
+    variables = {}
+    for name, quantity in quantities.items():
+        if quantity.average is not None:
+            total, n = table.totals[name]
+            mean = total / n if n else np.full(total.shape, np.nan)
+            shown, long_name = quantity.average
+            variables[shown] = _variable(quantity.dims, mean, quantity.units, long_name)
+    return variables
 
 
 def _deterministic(baseline: Record, ground: PreparedGround) -> Variables:
-    values = missing_values(sizes(ground)) | dict(baseline.values)
-    runout, final = QUANTITIES["runout"], QUANTITIES["final_runout"]
+    values = missing_values(ground.quantities, sizes(ground)) | dict(baseline.values)
+    runout, final = ground.quantities["runout"], ground.quantities["final_runout"]
     with_mean = "of the deterministic run with mean strengths"
     return {
         "deterministic_runout": _variable("time", values["runout"], "m", f"{runout.long_name}, {with_mean}"),

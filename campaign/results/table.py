@@ -6,17 +6,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from campaign.record import FAILED, QUANTITIES, fill_of
+from campaign.record import FAILED, Quantity, fill_of
 from campaign.storage.columns import Columns
-
-TOTALS = ("displaced",)
-"""Quantities of which only the sum over the realizations without failure is kept."""
 
 
 class Total(NamedTuple):
     """The sum of a quantity over the realizations without failure that hold it, and their number."""
 
-    sum: NDArray[np.int64]
+    sum: NDArray[np.float64]
     n: int
 
 
@@ -29,7 +26,7 @@ class Table(NamedTuple):
     values : dict
         By the name of the quantity, an array (realization, ...); NaN, or 0 for integers, where a record lacks it.
     totals : dict
-        By the name of the quantity.
+        By the name of the quantity, of those that enter the dataset as an average.
     """
 
     statuses: NDArray[np.int8]
@@ -43,17 +40,19 @@ class Table(NamedTuple):
         return len(self.statuses)
 
 
-def gather(blocks: Iterable[Columns], count: int, sizes: Mapping[str, int]) -> Table:
+def gather(
+    blocks: Iterable[Columns], count: int, quantities: Mapping[str, Quantity], sizes: Mapping[str, int]
+) -> Table:
     """Put the records of realizations 0 to `count` - 1 below each other; `sizes` maps dimension to length.
 
-    A quantity that this version does not know stays in the record.
+    A quantity that is not asked for stays in the record.
 
     Raises
     ------
     ValueError
         When the blocks do not hold each of the realizations once.
     """
-    table = _empty(count, sizes)
+    table = _empty(count, quantities, sizes)
     seen = np.zeros(count, dtype=np.int64)
     for block in blocks:
         rows = block.realizations
@@ -68,17 +67,17 @@ def gather(blocks: Iterable[Columns], count: int, sizes: Mapping[str, int]) -> T
     return table
 
 
-def _empty(count: int, sizes: Mapping[str, int]) -> Table:
-    shapes = {name: [sizes[dim] for dim in quantity.dims] for name, quantity in QUANTITIES.items()}
+def _empty(count: int, quantities: Mapping[str, Quantity], sizes: Mapping[str, int]) -> Table:
+    shapes = {name: [sizes[dim] for dim in quantity.dims] for name, quantity in quantities.items()}
     values = {
         name: np.full([count, *shapes[name]], fill_of(quantity.dtype), quantity.dtype)
-        for name, quantity in QUANTITIES.items()
-        if name not in TOTALS
+        for name, quantity in quantities.items()
+        if quantity.average is None
     }
-    totals = {name: Total(np.zeros(shapes[name], dtype=np.int64), 0) for name in TOTALS}
+    totals = {name: Total(np.zeros(shapes[name]), 0) for name in shapes.keys() - values.keys()}
     return Table(np.zeros(count, dtype=np.int8), np.full(count, "", dtype=object), values, totals)
 
 
 def _with(total: Total, block: Columns, name: str) -> Total:
     finished = block.values[name][~np.isin(block.statuses, list(FAILED))]
-    return Total(total.sum + finished.sum(axis=0, dtype=np.int64), total.n + len(finished))
+    return Total(total.sum + finished.sum(axis=0, dtype=np.float64), total.n + len(finished))

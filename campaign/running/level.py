@@ -4,9 +4,9 @@ import contextlib
 from collections.abc import Callable
 from pathlib import Path
 
-from campaign.record import Record, Status, missing_values
+from campaign.record import Status
 from campaign.scene import Scene
-from campaign.simulation.contract import PreparedGround, sizes
+from campaign.simulation.contract import PreparedGround, without_result
 from campaign.statistics.tally import Tally, tally_of
 from campaign.storage.attempts import Attempts
 from campaign.storage.record_store import RecordStore
@@ -36,7 +36,7 @@ class Level:
         for realization, reason in self._attempts.given_up().items():
             if realization not in finished:
                 say(f"Realization {realization} is recorded as crashed: it {reason}.")
-                self.store.write(Record(realization, Status.crashed, reason, missing_values(sizes(ground))))
+                self.store.write(without_result(ground, realization, Status.crashed, reason))
 
     def tally(self) -> Tally:
         """Return the account of what earlier starts have finished or given up."""

@@ -5,9 +5,9 @@ import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from campaign.record import Record, Status, missing_values, summarize
+from campaign.record import Record, Status, summarize
 from campaign.running.stop_request import StopRequest
-from campaign.simulation.contract import Interrupted, PreparedGround, sizes
+from campaign.simulation.contract import Interrupted, PreparedGround, without_result
 from campaign.statistics.tally import Report
 from campaign.storage.attempts import Attempts
 from campaign.storage.record_store import RecordStore
@@ -91,13 +91,9 @@ class Worker:
             if self.interrupt.abandons:
                 return None
             reason = f"took longer than the realization_timeout of {self.interrupt.timeout:g} s"
-            return self._without_result(realization, Status.timeout, reason)
+            return without_result(self.ground, realization, Status.timeout, reason, self.interrupt.elapsed)
         except Exception as error:
-            return self._without_result(realization, Status.crashed, _reason(error))
-
-    def _without_result(self, realization: int, status: Status, reason: str) -> Record:
-        values = missing_values(sizes(self.ground)) | {"wall_time": self.interrupt.elapsed}
-        return Record(realization, status, reason, values)
+            return without_result(self.ground, realization, Status.crashed, _reason(error), self.interrupt.elapsed)
 
 
 def _reason(error: Exception) -> str:

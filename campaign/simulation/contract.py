@@ -1,12 +1,13 @@
 """What a campaign asks of the thing it runs many times; `campaign.simulation.ground.Ground` is the one in use."""
 
+import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
 from numpy.typing import NDArray
 
-from campaign.record import Record
+from campaign.record import Quantity, Record, Status, missing_values, units_of
 from campaign.scene.scene import Scene
 
 
@@ -20,6 +21,10 @@ class PreparedGround(Protocol):
     @property
     def coordinates(self) -> Mapping[str, NDArray[Any]]:
         """Arrays "time" [s], "x" [m], "particle_x" and "particle_y" [m]."""
+
+    @property
+    def quantities(self) -> Mapping[str, Quantity]:
+        """What a realization's record holds, by name; `final_runout`, `runout` and `wall_time` among it."""
 
     @property
     def n_particles(self) -> int:
@@ -41,3 +46,11 @@ def sizes(ground: PreparedGround) -> dict[str, int]:
     """Return the length of each dimension of a record."""
     coordinates = ground.coordinates
     return {"time": len(coordinates["time"]), "x": len(coordinates["x"]), "particle": ground.n_particles}
+
+
+def without_result(
+    ground: PreparedGround, realization: int, status: Status, reason: str, wall_time: float = math.nan
+) -> Record:
+    """Return the record of a realization that gave no result, after so many seconds."""
+    values = missing_values(ground.quantities, sizes(ground)) | {"wall_time": wall_time}
+    return Record(realization, status, reason, values, units_of(ground.quantities))

@@ -1,6 +1,6 @@
 """The ground that all realizations of a scene share, and the door to each of them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -10,9 +10,10 @@ import numpy as np
 
 from campaign.errors import RefusalError
 from campaign.fields.strengths import Strengths, StrengthSampler, strength_sampler
-from campaign.record import Record
+from campaign.record import Quantity, Record
 from campaign.scene.scene import Scene
 from campaign.seeds import BASELINE
+from campaign.simulation.quantities import QUANTITIES
 from campaign.simulation.realization import never, nothing, simulate
 from campaign.simulation.solver_model import Array, column_edges, model_of, output_times
 from solver.filling import fill_ground
@@ -58,6 +59,11 @@ class Ground:
             "particle_x": self.lattice.x,
             "particle_y": self.lattice.y,
         }
+
+    @property
+    def quantities(self) -> Mapping[str, Quantity]:
+        """What a realization's record holds, by name."""
+        return QUANTITIES
 
     @property
     def n_particles(self) -> int:

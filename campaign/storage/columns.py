@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from campaign.record import SUMMARIZED, RealizationSummary, Record, Status, fill_of
-from campaign.storage.record_format import as_declared, plain
+from campaign.record import SUMMARIZED, RealizationSummary, Record, Status, fill_of, plain
 
 
 @dataclass(frozen=True)
@@ -22,12 +21,15 @@ class Columns:
         Of text.
     values : dict
         By the name of the quantity, an array (row, ...). A number that a record lacks is NaN, or 0 for integers.
+    units : dict
+        Of the values, by the same names.
     """
 
     realizations: NDArray[np.int64]
     statuses: NDArray[np.int8]
     reasons: NDArray[np.object_]
     values: Mapping[str, NDArray[Any]]
+    units: Mapping[str, str]
 
     def __len__(self) -> int:
         return len(self.realizations)
@@ -35,12 +37,13 @@ class Columns:
     def take(self, rows: NDArray[np.bool_]) -> "Columns":
         """Return the rows of a mask."""
         values = {name: column[rows] for name, column in self.values.items()}
-        return Columns(self.realizations[rows], self.statuses[rows], self.reasons[rows], values)
+        return Columns(self.realizations[rows], self.statuses[rows], self.reasons[rows], values, self.units)
 
     def record(self, row: int) -> Record:
         """Return one row as a record; its arrays are views."""
         values = {name: plain(column[row]) for name, column in self.values.items()}
-        return Record(int(self.realizations[row]), Status(int(self.statuses[row])), str(self.reasons[row]), values)
+        status, reason = Status(int(self.statuses[row])), str(self.reasons[row])
+        return Record(int(self.realizations[row]), status, reason, values, self.units)
 
     def records(self) -> list[Record]:
         """Return all rows as records."""
@@ -68,11 +71,12 @@ def columns_of(records: Sequence[Record]) -> Columns:
         np.array([int(record.status) for record in records], dtype=np.int8),
         np.array([record.reason for record in records], dtype=object),
         {name: _column(name, records) for name in names},
+        {name: unit for record in records for name, unit in record.units.items()},
     )
 
 
 def _column(name: str, records: Sequence[Record]) -> NDArray[Any]:
-    held = [None if name not in record.values else as_declared(name, record.values[name]) for record in records]
+    held = [None if name not in record.values else np.asarray(record.values[name]) for record in records]
     like = next(value for value in held if value is not None)
     missing = np.full(like.shape, fill_of(like.dtype), like.dtype)
     return np.stack([missing if value is None else value for value in held], dtype=like.dtype)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from campaign.errors import DamagedRecordError
-from campaign.record import Record, Status
+from campaign.record import Record, Status, plain
 
 ORDER = (
     "runout",
@@ -39,12 +39,13 @@ def read_group(group: Any, place: str) -> Record:
     try:
         arrays = {name: np.asarray(group[name][()]) for name in ORDER if name in group}
         number, status = int(group.attrs["realization"]), Status(int(group.attrs["status"]))
+        units = {name: str(group[name].attrs["units"]) for name in arrays}
         reason, checksum = str(group.attrs["reason"]), str(group.attrs["checksum"])
     except (OSError, KeyError, ValueError, RuntimeError) as error:
         raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
     if checksum != _checksum(number, status, reason, arrays):
         raise DamagedRecordError(f"{place} does not match its checksum.")
-    return Record(number, status, reason, {n: a if a.ndim else a.item() for n, a in arrays.items()})
+    return Record(number, status, reason, {name: plain(array) for name, array in arrays.items()}, units)
 
 
 def _checksum(number: int, status: Status, reason: str, arrays: Mapping[str, NDArray[Any]]) -> str:

@@ -6,7 +6,7 @@ told from the others.
 
 import hashlib
 import io
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +14,10 @@ import h5py
 import numpy as np
 
 from campaign.errors import DamagedRecordError
-from campaign.record import SUMMARIZED, RealizationSummary, Record, Status
+from campaign.record import SUMMARIZED, RealizationSummary, Record, Status, plain
 from campaign.storage import format_0
 from campaign.storage.columns import Columns, columns_of
-from campaign.storage.record_format import as_declared, plain, write_values
+from campaign.storage.record_format import read_units, write_values
 from campaign.storage.seal import SIZE, check_bytes, seal_of, sealed
 
 VALUES = "values"
@@ -38,7 +38,7 @@ def to_bytes(columns: Columns) -> bytes:
         values = file.create_group(VALUES)
         for name, column in columns.values.items():
             rows = {"compression": 1, "chunks": (1, *column.shape[1:])} if column.dtype == np.uint8 else {}
-            write_values(values, name, column, **rows)
+            write_values(values, name, column, columns.units, **rows)
     return sealed(buffer.getvalue())
 
 
@@ -102,16 +102,18 @@ def _content(path: Path) -> bytes:
         raise DamagedRecordError(f"The pack {path} cannot be opened ({error}).") from error
 
 
-def _columns(file: h5py.File, names: Iterable[str]) -> Columns:
+def _columns(file: h5py.File, names: Collection[str]) -> Columns:
     values = {name: file[VALUES][name][()] for name in names}
-    return Columns(file["realization"][()], file["status"][()], file["reason"].asstr()[()], values)
+    reasons, units = file["reason"].asstr()[()], read_units(file[VALUES], names)
+    return Columns(file["realization"][()], file["status"][()], reasons, values, units)
 
 
 def _row(file: h5py.File, row: int) -> Record:
     """Read one row and verify it by its own checksum."""
     values = {name: plain(column[row]) for name, column in file[VALUES].items()}
     status = Status(int(file["status"][row]))
-    record = Record(int(file["realization"][row]), status, file["reason"].asstr()[row], values)
+    units = read_units(file[VALUES], values)
+    record = Record(int(file["realization"][row]), status, file["reason"].asstr()[row], values, units)
     if file["checksum"][row].decode() != _checksum(record):
         raise DamagedRecordError(f"Row {row} does not match its checksum.")
     return record
@@ -130,7 +132,7 @@ def _whole(read_one: Callable[[Any], Record], places: Iterable[Any]) -> list[Rec
 def _checksum(record: Record) -> str:
     digest = hashlib.sha256(f"{record.realization} {int(record.status)} {record.reason}".encode())
     for name, value in sorted(record.values.items()):
-        array = as_declared(name, value)
+        array = np.asarray(value)
         digest.update(f"{name} {array.dtype.str} {array.shape}".encode())
         digest.update(np.ascontiguousarray(array).tobytes())
     return digest.hexdigest()

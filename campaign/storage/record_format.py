@@ -1,14 +1,14 @@
 """A record as bytes: an HDF5 file with a dataset for each quantity, behind a seal."""
 
 import io
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import h5py
 import numpy as np
 
 from campaign.errors import DamagedRecordError
-from campaign.record import QUANTITIES, SUMMARIZED, Record, Status, Value
+from campaign.record import SUMMARIZED, Record, Status, Value, plain
 from campaign.storage import format_0
 from campaign.storage.seal import SIZE, check_bytes, seal_of, sealed
 
@@ -21,7 +21,7 @@ def to_bytes(record: Record) -> bytes:
     buffer = io.BytesIO()
     with h5py.File(buffer, "w", userblock_size=SIZE) as file:
         for name, value in record.values.items():
-            write_values(file, name, as_declared(name, value))
+            write_values(file, name, np.asarray(value), record.units)
         file.attrs["realization"] = record.realization
         file.attrs["status"] = int(record.status)
         file.attrs["reason"] = record.reason
@@ -66,26 +66,21 @@ def _read(content: bytes, place: str, names: Collection[str] | None) -> Record:
         raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
 
 
-def _record(file: Any, names: Collection[str]) -> Record:
+def _record(file: h5py.File, names: Collection[str]) -> Record:
     about = file.attrs
     values: dict[str, Value] = {name: plain(file[name][()]) for name in names}
-    return Record(int(about["realization"]), Status(int(about["status"])), str(about["reason"]), values)
+    status, units = Status(int(about["status"])), read_units(file, names)
+    return Record(int(about["realization"]), status, str(about["reason"]), values, units)
 
 
-def write_values(group: Any, name: str, values: Any, **how: Any) -> None:
-    """Write a quantity's numbers with their unit, where this version knows it."""
+def write_values(group: h5py.Group, name: str, values: Any, units: Mapping[str, str], **how: Any) -> None:
+    """Write a quantity's numbers with their unit, if it has one."""
     group.create_dataset(name, data=values, **how)
-    if name in QUANTITIES:
-        group[name].attrs["units"] = QUANTITIES[name].units
+    if name in units:
+        group[name].attrs["units"] = units[name]
 
 
-def as_declared(name: str, value: Value) -> np.ndarray[Any, Any]:
-    """Return a value in the type that its quantity declares; an unknown quantity keeps its own."""
-    return np.asarray(value, dtype=QUANTITIES[name].dtype if name in QUANTITIES else None)
-
-
-def plain(value: Any) -> Value:
-    """Return a number without dimensions as Python's own."""
-    array = np.asarray(value)
-    number: Value = array if array.ndim else array.item()
-    return number
+def read_units(group: h5py.Group, names: Collection[str]) -> dict[str, str]:
+    """Return the units of the quantities that have one."""
+    units = {name: group[name].attrs.get("units") for name in names}
+    return {name: str(unit) for name, unit in units.items() if unit is not None}

@@ -6,7 +6,7 @@ import json
 import h5py
 import numpy as np
 
-from campaign.record import QUANTITIES
+from campaign.simulation.quantities import QUANTITIES
 from campaign.storage import manifest
 from campaign.storage.layout import MANIFEST, PACKS, RECORDS, realization_name
 

@@ -4,11 +4,13 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from campaign.record import QUANTITIES, Record, Status
+from campaign.record import Record, Status
+from campaign.simulation.quantities import QUANTITIES, UNITS
 
 SIZES = {"time": 5, "x": 3, "particle": 4}
 
 GROUND = SimpleNamespace(
+    quantities=QUANTITIES,
     n_particles=SIZES["particle"],
     toe_x=35.0,
     coordinates={
@@ -28,10 +30,11 @@ def make_record(realization: int, status: Status = Status.slid, reason: str = ""
         array = rng.integers(0, 2, [SIZES[dim] for dim in quantity.dims]).astype(quantity.dtype)
         values[name] = array if array.ndim else array.item()
     values["final_runout"] = float(rng.normal(10, 0.5))
-    return Record(realization, status, reason, values)
+    return Record(realization, status, reason, values, UNITS)
 
 
 def assert_same(one: Record, other: Record) -> None:
     assert (one.realization, one.status, one.reason) == (other.realization, other.status, other.reason)
+    assert one.units == other.units
     for name in QUANTITIES:
         np.testing.assert_array_equal(one.values[name], other.values[name], err_msg=name, strict=True)

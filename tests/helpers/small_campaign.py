@@ -2,12 +2,13 @@
 
 import numpy as np
 
-from campaign.record import FAILED, QUANTITIES, Record, Status, missing_values, summarize
+from campaign.record import FAILED, Record, Status, missing_values, summarize
 from campaign.results import dataset
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import sizes
 from campaign.simulation.ground import prepare
+from campaign.simulation.quantities import UNITS
 from campaign.statistics.tally import tally_of
 from campaign.storage import manifest
 from campaign.storage.columns import columns_of
@@ -47,11 +48,11 @@ def conclude(directory, scene, ground, records):
 
 def made_up(ground, realization, runout, status=Status.slid, reason=""):
     """Return a record that ends with a given run-out (m)."""
-    values = missing_values(sizes(ground))
+    values = missing_values(ground.quantities, sizes(ground))
     if status not in FAILED:
-        values = {name: np.zeros_like(np.asarray(values[name])) for name in QUANTITIES}
+        values = {name: np.zeros_like(np.asarray(values[name])) for name in ground.quantities}
         values["final_runout"] = runout
         values["runout"] = runout * np.linspace(0, 1, len(ground.coordinates["time"]))
         values["settle_time"] = np.nan if status is Status.not_settled else 5.0
         values["deposit_surface"] = np.full(len(ground.coordinates["x"]), 4.0)
-    return Record(realization, status, reason, values)
+    return Record(realization, status, reason, values, UNITS)

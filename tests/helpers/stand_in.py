@@ -14,10 +14,11 @@ from pathlib import Path
 
 import numpy as np
 
-from campaign.record import QUANTITIES, Record, Status
+from campaign.record import Quantity, Record, Status
 from campaign.scene import Scene, load_scene
 from campaign.seeds import BASELINE, Stream, generator
 from campaign.simulation.contract import Interrupted
+from campaign.simulation.quantities import QUANTITIES, UNITS
 
 SIZES = {"time": 11, "x": 7, "particle": 13}
 
@@ -37,6 +38,10 @@ class StandIn:
             "particle_y": np.ones(SIZES["particle"]),
         }
     )
+
+    @property
+    def quantities(self) -> dict[str, Quantity]:
+        return QUANTITIES
 
     def simulate(self, realization: int, interrupt: Callable[[], bool]) -> Record:
         begin, length = time.monotonic(), float(os.environ.get("STAND_IN_SECONDS", "0"))
@@ -72,7 +77,7 @@ def record(seed: int, realization: int, cell: float) -> Record:
     values["final_runout"] = values["final_runout"] + 2.0 * (1.0 - cell) * (1 + 0.1 * realization)
     values["displaced"] = rng.integers(0, 2, SIZES["particle"], "u1")
     values["wall_time"] = time.process_time()
-    return Record(realization, Status.slid, "", values)
+    return Record(realization, Status.slid, "", values, UNITS)
 
 
 if __name__ == "__main__":

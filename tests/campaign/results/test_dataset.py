@@ -6,9 +6,10 @@ import pytest
 import xarray as xr
 from records import GROUND, SIZES, make_record
 
-from campaign.record import QUANTITIES, Status
+from campaign.record import Status
 from campaign.results import dataset
 from campaign.seeds import BASELINE
+from campaign.simulation.quantities import QUANTITIES
 from campaign.statistics.convergence import Rule, history
 from campaign.statistics.discretisation import Discretisation
 from campaign.storage.columns import columns_of

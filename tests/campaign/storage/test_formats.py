@@ -9,12 +9,13 @@ from records import GROUND, SIZES, assert_same, make_record
 
 from campaign.commands.status import status
 from campaign.errors import DamagedRecordError, RefusalError
-from campaign.record import QUANTITIES, Record, Status
+from campaign.record import Record, Status
 from campaign.results import dataset
 from campaign.results.results import open_results
 from campaign.running.level import Level
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
+from campaign.simulation.quantities import QUANTITIES
 from campaign.storage import formats, manifest, seal
 from campaign.storage.access import Access, judge
 from campaign.storage.columns import columns_of

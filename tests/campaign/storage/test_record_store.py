@@ -9,8 +9,9 @@ import pytest
 from records import SIZES, assert_same, make_record
 
 from campaign.errors import DamagedRecordError
-from campaign.record import QUANTITIES, Status, missing_values
+from campaign.record import Status, missing_values
 from campaign.seeds import BASELINE
+from campaign.simulation.quantities import QUANTITIES, UNITS
 from campaign.storage.packs import Packs
 from campaign.storage.record_store import RecordStore
 
@@ -38,11 +39,11 @@ def test_the_baseline_has_a_name_of_its_own(store):
 def test_every_float_in_a_record_file_has_a_unit(store):
     store.write(make_record(0))
     with h5py.File(store.records / "realization-000000.h5") as file:
-        assert {name: file[name].attrs["units"] for name in file} == {n: q.units for n, q in QUANTITIES.items()}
+        assert {name: file[name].attrs["units"] for name in file} == UNITS
 
 
 def test_missing_values_are_nan():
-    values = missing_values(SIZES)
+    values = missing_values(QUANTITIES, SIZES)
     assert np.isnan(values["final_runout"])
     assert np.isnan(values["runout"]).all()
     assert values["displaced"].shape == (SIZES["particle"],)

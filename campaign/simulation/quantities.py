@@ -1,0 +1,184 @@
+"""What is measured in a realization: one table, from which records, dataset and documentation follow.
+
+A new quantity is a new row. `python -m campaign.simulation.quantities` prints the table for README.
+"""
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from campaign.record import Average, Quantity, Value, missing_values, plain, units_of
+from campaign.simulation.detachment import detached_volume
+from campaign.simulation.solver_model import Array, column_edges
+from solver import observables
+from solver.march import History
+from solver.model import Model
+from solver.particles import Particles
+
+
+@dataclass(frozen=True)
+class Ending:
+    """A march that has ended, with all that a quantity may be computed from.
+
+    Parameters
+    ----------
+    model : solver.model.Model
+    start : Particles
+        The in-situ state with the peak strengths of the realization.
+    history : solver.march.History
+        The series in time and the particles at the end.
+    begin : float
+        When the simulation began, on the clock of `time.perf_counter` [s].
+    """
+
+    model: Model
+    start: Particles
+    history: History
+    begin: float
+
+    @property
+    def particles(self) -> Particles:
+        """The particles at the end."""
+        return self.history.particles
+
+    @property
+    def deposit(self) -> Particles:
+        """The particles at the end with their areas before the slide: grains that part gain area, a deposit not."""
+        return self.particles._replace(volume=self.start.volume)
+
+    @property
+    def half_spacing(self) -> float:
+        """Half the distance between particles on their lattice [m]."""
+        return float(0.5 * self.model.cell_size / np.sqrt(self.model.particles_per_cell))
+
+    @cached_property
+    def edges(self) -> Array:
+        """Edges of the columns of the deposit surface [m]."""
+        return column_edges(self.model)
+
+
+@dataclass(frozen=True)
+class Measured(Quantity):
+    """A quantity and the way to it.
+
+    Parameters
+    ----------
+    compute
+        From a march that has ended.
+    after_failure
+        Whether it means something, too, when the march has failed; else it is missing then.
+    """
+
+    compute: Callable[[Ending], Value] = field(kw_only=True)
+    after_failure: bool = field(default=False, kw_only=True)
+
+
+DISPLACED = Average(
+    "influence_probability",
+    "share of the realizations without failure in which the particle is displaced farther than slide.displaced",
+)
+
+QUANTITIES: dict[str, Measured] = {
+    "runout": Measured(
+        ("time",),
+        "m",
+        "advance of the sliding front from the initial toe",
+        compute=lambda end: end.history.runout,
+        after_failure=True,
+    ),
+    "max_displacement": Measured(
+        ("time",),
+        "m",
+        "largest particle displacement since release",
+        compute=lambda end: end.history.max_displacement,
+        after_failure=True,
+    ),
+    "kinetic_energy": Measured(
+        ("time",),
+        "J/m",
+        "kinetic energy per metre run",
+        compute=lambda end: end.history.kinetic_energy,
+        after_failure=True,
+    ),
+    "final_runout": Measured(
+        (),
+        "m",
+        "final advance of the front-most slid particle from the initial toe",
+        compute=lambda end: end.history.runout[-1],
+    ),
+    "final_runout_mass": Measured(
+        (),
+        "m",
+        "final advance of the front beyond which slide.front_area of slid material lies",
+        compute=lambda end: observables.runout_mass(end.particles, end.start, end.model.surface, end.model.slide),
+    ),
+    "sliding_volume": Measured(
+        (),
+        "m3/m",
+        "volume displaced farther than slide.displaced, per metre run",
+        compute=lambda end: observables.sliding_volume(end.particles, end.start, end.model.slide),
+    ),
+    "detached_volume": Measured(
+        (),
+        "m3/m",
+        "volume that has come apart and lies ahead of the slide, per metre run",
+        compute=lambda end: detached_volume(end.particles, end.start, end.model.surface, end.model.allocate_grid()),
+    ),
+    "settle_time": Measured(
+        (), "s", "time from release to rest", compute=lambda end: end.history.settle_time, after_failure=True
+    ),
+    "energy_error": Measured(
+        (), "1", "energy imbalance over the work of gravity", compute=lambda end: end.history.energy_error
+    ),
+    "steps": Measured((), "1", "number of time steps", "i8", compute=lambda end: end.history.steps, after_failure=True),
+    "deposit_surface": Measured(
+        ("x",),
+        "m",
+        "final elevation of the ground surface",
+        compute=lambda end: observables.deposit_surface(end.deposit, end.half_spacing, end.edges),
+    ),
+    "displaced": Measured(
+        ("particle",),
+        "1",
+        "1 where a particle is displaced farther than slide.displaced",
+        "u1",
+        DISPLACED,
+        compute=lambda end: observables.is_displaced(end.particles, end.start, end.model.slide),
+    ),
+    "wall_time": Measured(
+        (),
+        "s",
+        "wall-clock time of the simulation",
+        compute=lambda end: time.perf_counter() - end.begin,
+        after_failure=True,
+    ),
+}
+
+UNITS = units_of(QUANTITIES)
+
+
+def measure(end: Ending, quantities: Mapping[str, Measured] = QUANTITIES) -> dict[str, Value]:
+    """Return the values of all quantities: arrays of the declared types, and numbers."""
+    sizes = {"time": end.history.runout.size, "x": end.edges.size - 1, "particle": end.start.x.size}
+    values = missing_values(quantities, sizes)
+    for name, quantity in quantities.items():
+        if quantity.after_failure or not end.history.has_failed:
+            values[name] = np.asarray(quantity.compute(end), dtype=quantity.dtype)
+    return {name: plain(value) for name, value in values.items()}
+
+
+def markdown() -> str:
+    """Return the quantities of the dataset as a table in Markdown."""
+    lines = ["| name | by | unit | meaning |", "|---|---|---|---|"]
+    for name, quantity in QUANTITIES.items():
+        by = quantity.dims if quantity.average else ("realization", *quantity.dims)
+        shown, meaning = quantity.average or (name, quantity.long_name)
+        lines.append(f"| `{shown}` | {', '.join(by)} | {quantity.units} | {meaning} |")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(markdown())
