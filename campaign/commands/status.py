@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from campaign.running.progress import state_line
-from campaign.statistics.convergence import Rule
+from campaign.statistics.convergence import StoppingRule
 from campaign.statistics.tally import Tally
 from campaign.storage import manifest
 from campaign.storage.layout import HALF_CELL, RESULTS
@@ -54,7 +54,7 @@ def _state(directory: Path, about: dict[str, Any]) -> str:
 
 def _tally(directory: Path, wanted: dict[str, Any]) -> tuple[Tally, list[str]]:
     """Return the account of the records on disk, and a sentence for each file that cannot be read."""
-    rule = Rule(**{name: wanted[name] for name in Rule.__dataclass_fields__})
+    rule = StoppingRule(**{name: wanted[name] for name in StoppingRule.__dataclass_fields__})
     tally = Tally(wanted["realizations"], rule, wanted["max_failed_fraction"])
     summaries, damaged = RecordStore(directory).summaries()
     for summary in summaries.values():

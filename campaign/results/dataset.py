@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from campaign.record import Quantity, Record, Status, missing_values
 from campaign.results.table import Table, gather
 from campaign.simulation.contract import PreparedGround, sizes
-from campaign.statistics.convergence import History
+from campaign.statistics.convergence import ConvergenceHistory
 from campaign.statistics.discretisation import METHOD, Discretisation
 from campaign.storage.columns import Columns
 from campaign.storage.files import publish, temporary_name
@@ -30,7 +30,7 @@ def build(
     ground: PreparedGround,
     blocks: Iterable[Columns],
     baseline: Record,
-    history: History,
+    history: ConvergenceHistory,
     about: Mapping[str, Any],
     discretisation: Discretisation | None = None,
 ) -> xr.Dataset:
@@ -81,7 +81,7 @@ def write(dataset: xr.Dataset, path: Path) -> None:
         temporary.unlink(missing_ok=True)
 
 
-def _coordinates(ground: PreparedGround, table: Table, history: History) -> Variables:
+def _coordinates(ground: PreparedGround, table: Table, history: ConvergenceHistory) -> Variables:
     given = ground.coordinates
     return {
         "realization": _variable("realization", range(table.n), "1", "realization", "i4"),
@@ -139,7 +139,7 @@ def _deterministic(baseline: Record, ground: PreparedGround) -> Variables:
     }
 
 
-def _convergence(history: History) -> Variables:
+def _convergence(history: ConvergenceHistory) -> Variables:
     bounds = ("checkpoint", "bound")
     return {
         "n": _variable("checkpoint", history.n, "1", "usable realizations behind the estimates", "i4"),

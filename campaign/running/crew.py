@@ -8,7 +8,7 @@ from campaign.running.dispatcher import Dispatcher
 from campaign.running.stop_request import StopRequest
 from campaign.running.worker import Interrupt, Worker
 from campaign.simulation.contract import PreparedGround
-from campaign.statistics.tally import Report
+from campaign.statistics.tally import RankReport
 from campaign.storage.attempts import Attempts
 from campaign.storage.record_store import RecordStore
 
@@ -50,7 +50,7 @@ class Alone:
     def compute(self, order: Order, dispatcher: Dispatcher, aside: Callable[[], None]) -> None:
         """Compute one realization after another."""
         worker = worker_of(order, 0, self._stop, aside)
-        work(worker, dispatcher.exchange(Report(None)), dispatcher.exchange_here)
+        work(worker, dispatcher.exchange(RankReport(None)), dispatcher.exchange_here)
         aside()
 
 
@@ -60,7 +60,7 @@ def worker_of(order: Order, rank: int, stop: StopRequest, aside: Callable[[], No
     return Worker(order.ground, RecordStore(order.directory), Attempts(order.directory), rank, interrupt)
 
 
-def work(worker: Worker, realization: int | None, exchange: Callable[[Report], int | None]) -> None:
+def work(worker: Worker, realization: int | None, exchange: Callable[[RankReport], int | None]) -> None:
     """Run realizations, the given one first, until the exchange has no next."""
     while realization is not None:
         realization = exchange(worker.run(realization))

@@ -4,7 +4,7 @@ from collections.abc import Callable, Container, Iterator
 from threading import Lock
 
 from campaign.seeds import BASELINE
-from campaign.statistics.tally import Report, Tally
+from campaign.statistics.tally import RankReport, Tally
 
 
 class Dispatcher:
@@ -34,7 +34,7 @@ class Dispatcher:
         self._missing = _missing(tally.maximum, frozenset(tally.summaries))
         self._lock = Lock()
 
-    def exchange(self, report: Report) -> int | None:
+    def exchange(self, report: RankReport) -> int | None:
         """Take a rank's report and return its next realization; None is the end."""
         with self._lock:
             if report.finished is not None:
@@ -44,7 +44,7 @@ class Dispatcher:
             self.stopped = self.stopped or report.problem or self._obstacle(self._tally.longest)
             return None if self.stopped else next(self._missing, None)
 
-    def exchange_here(self, report: Report) -> int | None:
+    def exchange_here(self, report: RankReport) -> int | None:
         """Do the same for rank 0 itself, which tidies up first: it keeps nobody else waiting."""
         self._tidy()
         return self.exchange(report)

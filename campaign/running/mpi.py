@@ -27,7 +27,7 @@ from campaign.running.runner import conduct
 from campaign.running.stop_request import StopRequest, listening
 from campaign.scene import Scene
 from campaign.simulation.contract import Prepare
-from campaign.statistics.tally import Report
+from campaign.statistics.tally import RankReport
 
 REPORT, ANSWER = 1, 2
 
@@ -109,14 +109,14 @@ class Ranks:
     def compute(self, order: Order, dispatcher: Dispatcher, aside: Callable[[], None]) -> None:
         """Hand out realizations to all ranks, this one included, until there are no more."""
         _share(self._comm, order)
-        first = [dispatcher.exchange(Report(None)) for _ in range(self.size)]
+        first = [dispatcher.exchange(RankReport(None)) for _ in range(self.size)]
         service = Service(self._comm, first, dispatcher.exchange, aside)
         worker = worker_of(order, 0, self._stop, service.poll)
         work(worker, self._comm.scatter(first), dispatcher.exchange_here)
         service.finish()
 
 
-def _ask(comm: MPI.Comm, report: Report) -> int | None:
+def _ask(comm: MPI.Comm, report: RankReport) -> int | None:
     comm.send(report, dest=0, tag=REPORT)
     while not comm.iprobe(source=0, tag=ANSWER):
         time.sleep(PAUSE)
@@ -141,7 +141,7 @@ class Service:
         self,
         comm: MPI.Comm,
         first: list[int | None],
-        exchange: Callable[[Report], int | None],
+        exchange: Callable[[RankReport], int | None],
         aside: Callable[[], None],
     ) -> None:
         self._comm = comm

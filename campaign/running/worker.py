@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from campaign.record import Record, Status, summarize
 from campaign.running.stop_request import StopRequest
 from campaign.simulation.contract import Interrupted, PreparedGround, without_result
-from campaign.statistics.tally import Report
+from campaign.statistics.tally import RankReport
 from campaign.storage.attempts import Attempts
 from campaign.storage.record_store import RecordStore
 
@@ -70,18 +70,18 @@ class Worker:
     rank: int
     interrupt: Interrupt
 
-    def run(self, realization: int) -> Report:
+    def run(self, realization: int) -> RankReport:
         """Simulate one realization and keep its record."""
         self.interrupt.restart()
         try:
             with self.attempts.of(self.rank, realization):
                 record = self._simulate(realization)
             if record is None:
-                return Report(None, self.interrupt.abandons)
+                return RankReport(None, self.interrupt.abandons)
             self.store.write(record)
         except OSError as error:
-            return Report(None, f"realization {realization} cannot be kept in {self.store.records} ({error})")
-        return Report(summarize(record), "asked to stop" if self.interrupt.stop.drain else "")
+            return RankReport(None, f"realization {realization} cannot be kept in {self.store.records} ({error})")
+        return RankReport(summarize(record), "asked to stop" if self.interrupt.stop.drain else "")
 
     def _simulate(self, realization: int) -> Record | None:
         """Return the record, or None when the realization is abandoned."""

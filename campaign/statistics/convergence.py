@@ -26,7 +26,7 @@ LOOKS_IN_A_ROW = 2
 
 
 @dataclass(frozen=True)
-class Rule:
+class StoppingRule:
     """When to stop: both half-widths within their tolerances at two checkpoints in a row.
 
     Parameters
@@ -64,17 +64,17 @@ class Checkpoint:
         """Number of usable realizations."""
         return self.mean.n
 
-    def is_within(self, rule: Rule) -> bool:
+    def is_within(self, rule: StoppingRule) -> bool:
         """Whether both tolerances are met; NaN, "not enough yet", meets none."""
         return self.mean.precision <= rule.mean_tolerance and self.variance.precision <= rule.variance_tolerance
 
-    def satisfies(self, rule: Rule) -> bool:
+    def satisfies(self, rule: StoppingRule) -> bool:
         """Whether this checkpoint counts as one of the looks in a row that stop a campaign."""
         return self.n >= rule.minimum and is_regular(self.realizations, rule) and self.is_within(rule)
 
 
 @dataclass(frozen=True)
-class History:
+class ConvergenceHistory:
     """Estimates at every checkpoint, up to the one where the rule was satisfied, and the verdict.
 
     Attributes
@@ -106,7 +106,9 @@ class History:
     verdict: str
 
 
-def history(values: Sample, usable: NDArray[np.bool_], rule: Rule, threshold: float) -> History:
+def convergence_history(
+    values: Sample, usable: NDArray[np.bool_], rule: StoppingRule, threshold: float
+) -> ConvergenceHistory:
     """Apply the stopping rule to the contiguous prefix of finished realizations.
 
     Parameters
@@ -115,13 +117,13 @@ def history(values: Sample, usable: NDArray[np.bool_], rule: Rule, threshold: fl
         Final run-out of realization 0, 1, 2, ... [m], without gaps in the ids.
     usable : bool array (realization,)
         Whether the run-out counts. False where nothing slid or the realization failed, whatever its value.
-    rule : Rule
+    rule : StoppingRule
     threshold : float
         Run-out whose exceedance is estimated [m]; NaN if there is none.
 
     Returns
     -------
-    History
+    ConvergenceHistory
         At least one row. Where the last realization is not at a checkpoint it has a row of its own, which reports but
         never satisfies the rule: it would make the verdict depend on when one looked.
     """
@@ -133,13 +135,13 @@ def history(values: Sample, usable: NDArray[np.bool_], rule: Rule, threshold: fl
     return tabulate(looks, rule)
 
 
-def checkpoints(count: int, rule: Rule) -> list[int]:
+def checkpoints(count: int, rule: StoppingRule) -> list[int]:
     """Numbers of realizations at which the rule looks, and `count` itself."""
     regular = list(range(rule.minimum, count + 1, rule.block))
     return regular if regular and regular[-1] == count else [*regular, count]
 
 
-def is_regular(count: int, rule: Rule) -> bool:
+def is_regular(count: int, rule: StoppingRule) -> bool:
     """Whether the rule looks at this number of realizations however many have finished."""
     return count >= rule.minimum and (count - rule.minimum) % rule.block == 0
 
@@ -157,13 +159,13 @@ def look(runouts: Sample, realizations: int, confidence: float, threshold: float
     )
 
 
-def is_converged(looks: list[Checkpoint], rule: Rule) -> bool:
+def is_converged(looks: list[Checkpoint], rule: StoppingRule) -> bool:
     """Whether the latest looks in a row satisfy the rule."""
     latest = looks[-LOOKS_IN_A_ROW:]
     return len(latest) == LOOKS_IN_A_ROW and all(each.satisfies(rule) for each in latest)
 
 
-def predicted_stop(latest: Checkpoint, rule: Rule) -> float:
+def predicted_stop(latest: Checkpoint, rule: StoppingRule) -> float:
     """Realizations at which the rule would stop if mean, variance, kurtosis and usable share stayed as they are.
 
     The half-widths are those of `mean_interval` and `variance_interval` for large n, solved for n:
@@ -186,10 +188,10 @@ def predicted_stop(latest: Checkpoint, rule: Rule) -> float:
     return float(max(rule.minimum + blocks * rule.block, latest.realizations))
 
 
-def tabulate(looks: list[Checkpoint], rule: Rule) -> History:
+def tabulate(looks: list[Checkpoint], rule: StoppingRule) -> ConvergenceHistory:
     """Turn checkpoints into arrays over checkpoints."""
     converged_at = looks[-1].realizations if is_converged(looks, rule) else None
-    return History(
+    return ConvergenceHistory(
         realizations=np.array([each.realizations for each in looks]),
         n=np.array([each.n for each in looks]),
         mean=np.array([each.mean.estimate for each in looks]),
@@ -200,11 +202,11 @@ def tabulate(looks: list[Checkpoint], rule: Rule) -> History:
         exceedance_ci=np.array([(each.exceedance.lower, each.exceedance.upper) for each in looks]),
         predicted_n=np.array([predicted_stop(each, rule) for each in looks]),
         converged_at=converged_at,
-        verdict=verdict(looks[-1], rule, converged_at is not None),
+        verdict=stopping_verdict(looks[-1], rule, converged_at is not None),
     )
 
 
-def verdict(latest: Checkpoint, rule: Rule, converged: bool) -> str:
+def stopping_verdict(latest: Checkpoint, rule: StoppingRule, converged: bool) -> str:
     """Say in a sentence whether the rule is satisfied, and if not, what is missing."""
     count = f"{latest.realizations} realizations"
     if converged:
@@ -218,7 +220,7 @@ def verdict(latest: Checkpoint, rule: Rule, converged: bool) -> str:
     return f"not converged after {count}: {shortfall(latest, rule)}"
 
 
-def shortfall(latest: Checkpoint, rule: Rule) -> str:
+def shortfall(latest: Checkpoint, rule: StoppingRule) -> str:
     """Name the tolerances that are not met."""
     asked = {
         "mean": (latest.mean.precision, rule.mean_tolerance),

@@ -12,10 +12,18 @@ import numpy as np
 from campaign.record import FAILED, USABLE, RealizationSummary
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
-from campaign.statistics.convergence import Checkpoint, History, Rule, is_converged, is_regular, look, tabulate
+from campaign.statistics.convergence import (
+    Checkpoint,
+    ConvergenceHistory,
+    StoppingRule,
+    is_converged,
+    is_regular,
+    look,
+    tabulate,
+)
 
 
-class Report(NamedTuple):
+class RankReport(NamedTuple):
     """A rank's word to rank 0: what it has finished, and why it must stop ("" if it need not)."""
 
     finished: RealizationSummary | None
@@ -41,7 +49,7 @@ class Tally:
         Wall-clock time of the slowest realization [s], the baseline included.
     """
 
-    def __init__(self, maximum: int, rule: Rule, max_failed_fraction: float) -> None:
+    def __init__(self, maximum: int, rule: StoppingRule, max_failed_fraction: float) -> None:
         self.maximum = maximum
         self.rule = rule
         self.max_failed_fraction = max_failed_fraction
@@ -107,7 +115,7 @@ class Tally:
             self._latest = look(usable, self.prefix, self.rule.confidence, self.threshold)
         return self._latest
 
-    def history(self) -> History:
+    def history(self) -> ConvergenceHistory:
         """Return the estimates at the checkpoints of the prefix, and at its end."""
         is_at_checkpoint = bool(self._looks) and self._looks[-1].realizations == self.prefix
         return tabulate(self._looks if is_at_checkpoint else [*self._looks, self.latest()], self.rule)
@@ -120,5 +128,7 @@ class Tally:
 def tally_of(scene: Scene) -> Tally:
     """Return the empty account of a scene's campaign."""
     wanted = scene.campaign
-    rule = Rule(wanted.mean_tolerance, wanted.variance_tolerance, wanted.confidence, wanted.minimum, wanted.block)
+    rule = StoppingRule(
+        wanted.mean_tolerance, wanted.variance_tolerance, wanted.confidence, wanted.minimum, wanted.block
+    )
     return Tally(wanted.realizations, rule, wanted.max_failed_fraction)

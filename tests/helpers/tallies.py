@@ -3,10 +3,10 @@
 import numpy as np
 
 from campaign.record import RealizationSummary, Status
-from campaign.statistics.convergence import Rule
+from campaign.statistics.convergence import StoppingRule
 from campaign.statistics.tally import Tally
 
-RULE = Rule(mean_tolerance=0.05, variance_tolerance=0.5, confidence=0.95, minimum=20, block=10)
+RULE = StoppingRule(mean_tolerance=0.05, variance_tolerance=0.5, confidence=0.95, minimum=20, block=10)
 RUNOUTS = np.random.default_rng(1).normal(10, 0.5, 200)
 
 

@@ -10,7 +10,7 @@ from campaign.record import Status
 from campaign.results import dataset
 from campaign.seeds import BASELINE
 from campaign.simulation.quantities import QUANTITIES
-from campaign.statistics.convergence import Rule, history
+from campaign.statistics.convergence import StoppingRule, convergence_history
 from campaign.statistics.discretisation import Discretisation
 from campaign.storage.columns import columns_of
 
@@ -22,7 +22,7 @@ RECORDS = [make_record(k, status, "no mass" if status is Status.crashed else "")
 def path(tmp_path_factory):
     runouts = np.array([record.values["final_runout"] for record in RECORDS])
     usable = np.array([status is Status.slid for status in STATUSES])
-    estimates = history(runouts, usable, Rule(0.01, 0.1, 0.95, 20, 25), 10.0)
+    estimates = convergence_history(runouts, usable, StoppingRule(0.01, 0.1, 0.95, 20, 25), 10.0)
     pairs = Discretisation(1.0, np.array([-0.5, np.nan, -1.5]), 0.25, 0.95)
     about = {"seed": "7", "scene": "title = 'é'\n"}
     built = dataset.build(

@@ -14,7 +14,7 @@ from campaign.simulation import quantities, realization
 from campaign.simulation.contract import sizes
 from campaign.simulation.ground import prepare
 from campaign.simulation.quantities import QUANTITIES, UNITS, Measured, markdown
-from campaign.statistics.convergence import Rule, history
+from campaign.statistics.convergence import StoppingRule, convergence_history
 from campaign.storage.columns import columns_of
 from campaign.storage.record_store import RecordStore
 from solver.observables import fastest
@@ -42,7 +42,7 @@ def test_a_new_row_is_measured_kept_and_shown(tmp_path, monkeypatch):
     kept = RecordStore(tmp_path).read(1)
     assert kept.values["final_speed"] == records[2].values["final_speed"] > 0
     assert kept.units["final_speed"] == "m/s"
-    estimates = history(np.ones(2), np.ones(2, dtype=bool), Rule(0.1, 0.1, 0.95, 10, 5), 1.0)
+    estimates = convergence_history(np.ones(2), np.ones(2, dtype=bool), StoppingRule(0.1, 0.1, 0.95, 10, 5), 1.0)
     built = dataset.build(ground, RecordStore(tmp_path).columns(2), records[0], estimates, {})
     np.testing.assert_array_equal(built.final_speed, [record.values["final_speed"] for record in records[1:]])
     assert built.final_speed.attrs["units"] == "m/s"
@@ -58,7 +58,7 @@ def test_what_is_too_large_for_each_realization_enters_as_its_average():
         for k, status in enumerate(statuses)
     ]
     ground = SimpleNamespace(**vars(GROUND) | {"quantities": QUANTITIES | {"left": LEFT}})
-    estimates = history(np.ones(6), np.ones(6, dtype=bool), Rule(0.1, 0.1, 0.95, 10, 5), 1.0)
+    estimates = convergence_history(np.ones(6), np.ones(6, dtype=bool), StoppingRule(0.1, 0.1, 0.95, 10, 5), 1.0)
     blocks = [columns_of(records[:2]), columns_of(records[2:])]
     built = dataset.build(ground, blocks, make_record(BASELINE), estimates, {})
     np.testing.assert_array_equal(built.leaving_probability, left[:5].mean(axis=0))

@@ -6,10 +6,10 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from campaign.statistics.convergence import Rule, checkpoints, history
+from campaign.statistics.convergence import StoppingRule, checkpoints, convergence_history
 
-RULE = Rule(mean_tolerance=0.01, variance_tolerance=0.10, confidence=0.95, minimum=100, block=50)
-LOOSE = Rule(mean_tolerance=0.02, variance_tolerance=0.40, confidence=0.95, minimum=100, block=50)
+RULE = StoppingRule(mean_tolerance=0.01, variance_tolerance=0.10, confidence=0.95, minimum=100, block=50)
+LOOSE = StoppingRule(mean_tolerance=0.02, variance_tolerance=0.40, confidence=0.95, minimum=100, block=50)
 
 # Decided by the variance of a normal run-out: 1 + 2 z^2 / asinh(0.1)^2 = 773, seen at 800 and confirmed at 850.
 NORMAL_STOP = 850
@@ -20,7 +20,7 @@ def normal_runouts(seed, n):
 
 
 def apply(values, rule=RULE, threshold=10.78):
-    return history(values, np.isfinite(values), rule, threshold)
+    return convergence_history(values, np.isfinite(values), rule, threshold)
 
 
 def assert_same(one, other):
@@ -66,7 +66,7 @@ def test_a_value_that_is_not_usable_is_never_read():
     values = normal_runouts(2, 150)
     usable = np.arange(150) % 3 > 0
     poisoned = np.where(usable, values, 1e9)
-    assert_same(history(poisoned, usable, RULE, 10.78), history(values, usable, RULE, 10.78))
+    assert_same(convergence_history(poisoned, usable, RULE, 10.78), convergence_history(values, usable, RULE, 10.78))
 
 
 def test_normal_run_outs_stop_where_theory_says():
@@ -130,7 +130,7 @@ def test_a_campaign_in_which_nearly_nothing_slides_does_not_converge():
     """Ten nearly equal run-outs in 200 realizations meet any tolerance, but ten are not the minimum."""
     values = np.full(200, np.nan)
     values[::20] = 10 + 1e-6 * np.arange(10)
-    result = apply(values, Rule(0.5, 5.0, 0.95, 100, 50))
+    result = apply(values, StoppingRule(0.5, 5.0, 0.95, 100, 50))
     assert result.converged_at is None
     assert result.verdict == "not enough yet: 10 usable run-outs in 200 realizations, at least 100 were asked"
 
@@ -150,8 +150,8 @@ def test_verdict_names_what_is_missing():
 @pytest.mark.parametrize(
     ("rule", "missing"),
     [
-        (Rule(0.002, 0.40, 0.95, 100, 50), "the mean is known to"),
-        (Rule(0.02, 0.05, 0.95, 100, 50), "the variance is known to"),
+        (StoppingRule(0.002, 0.40, 0.95, 100, 50), "the mean is known to"),
+        (StoppingRule(0.02, 0.05, 0.95, 100, 50), "the variance is known to"),
     ],
     ids=["mean", "variance"],
 )
@@ -201,8 +201,14 @@ def test_forecast_about_a_zero_mean_is_infinite():
 @pytest.mark.parametrize(
     ("draw", "mean", "variance", "rule", "least"),
     [
-        (lambda rng: rng.normal(10.8, 0.51, 600), 10.8, 0.51**2, Rule(0.01, 0.25, 0.95, 100, 50), 0.90),
-        (lambda rng: rng.lognormal(-0.1115717757, 0.4723807271, 1500), 1.0, 0.25, Rule(0.1, 0.4, 0.95, 100, 50), 0.86),
+        (lambda rng: rng.normal(10.8, 0.51, 600), 10.8, 0.51**2, StoppingRule(0.01, 0.25, 0.95, 100, 50), 0.90),
+        (
+            lambda rng: rng.lognormal(-0.1115717757, 0.4723807271, 1500),
+            1.0,
+            0.25,
+            StoppingRule(0.1, 0.4, 0.95, 100, 50),
+            0.86,
+        ),
     ],
     ids=["normal", "lognormal"],
 )

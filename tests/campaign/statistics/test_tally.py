@@ -8,7 +8,7 @@ from tallies import filled, summary
 
 from campaign.record import FAILED, USABLE, RealizationSummary, Status
 from campaign.seeds import BASELINE
-from campaign.statistics.convergence import Rule, history
+from campaign.statistics.convergence import StoppingRule, convergence_history
 from campaign.statistics.tally import Tally
 
 
@@ -55,7 +55,7 @@ def from_scratch(tally):
         ],
         dtype=float,
     )
-    return history(values, ~np.isnan(values), tally.rule, tally.threshold)
+    return convergence_history(values, ~np.isnan(values), tally.rule, tally.threshold)
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -63,7 +63,7 @@ def test_the_running_account_is_that_of_all_run_outs_at_once(seed):
     """Bit for bit, at every step, with failures, slopes that stay, gaps and any order of arrival."""
     rng = np.random.default_rng(seed)
     count = int(rng.integers(1, 160))
-    rule = Rule(
+    rule = StoppingRule(
         rng.uniform(0.001, 0.05), rng.uniform(0.1, 1.0), 0.95, int(rng.integers(10, 60)), int(rng.integers(1, 9))
     )
     statuses = rng.choice(list(Status), count + 1, p=[0.8, 0.05, 0.07, 0.02, 0.02, 0.02, 0.02])
@@ -87,7 +87,7 @@ def test_a_realization_counts_once():
 
 
 def seconds_to_add(count):
-    tally = Tally(count, Rule(1e-6, 1e-6, 0.95, 100, 25), 0.1)
+    tally = Tally(count, StoppingRule(1e-6, 1e-6, 0.95, 100, 25), 0.1)
     summaries = [RealizationSummary(k, Status.slid, 10.0 + k % 7, 1.0) for k in range(-1, count)]
     begin = time.process_time()
     for each in summaries:
