@@ -13,14 +13,15 @@ from campaign.record import FAILED, USABLE, RealizationSummary
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.statistics.convergence import (
+    LOOKS_IN_A_ROW,
     Checkpoint,
     ConvergenceHistory,
     StoppingRule,
-    is_converged,
     is_regular,
     look,
     tabulate,
 )
+from campaign.statistics.intervals import mean_interval
 
 
 class RankReport(NamedTuple):
@@ -33,7 +34,8 @@ class RankReport(NamedTuple):
 class Tally:
     """Finished realizations of a campaign of at most `maximum`, judged by `rule`.
 
-    Each realization is counted once, when it is added; only a checkpoint looks at all of them.
+    Each realization is counted once, when it is added. Only a checkpoint looks at all of them, and once; what it need
+    not know for its decision is computed when somebody asks.
 
     Attributes
     ----------
@@ -62,8 +64,9 @@ class Tally:
         self.longest = 0.0
         self._usable = np.empty(maximum)
         self._n_usable = 0
-        self._looks: list[Checkpoint] = []
-        self._latest: Checkpoint | None = None
+        self._checkpoints: list[tuple[int, int]] = []
+        self._looks: dict[int, Checkpoint] = {}
+        self._satisfied_in_a_row = 0
 
     def add(self, summary: RealizationSummary) -> None:
         """Take a realization into the account, unless it is there already.
@@ -90,12 +93,25 @@ class Tally:
     def _judge(self) -> None:
         at_end = self.prefix == self.maximum
         if is_regular(self.prefix, self.rule):
-            self._looks.append(self.latest())
+            self._checkpoints.append((self.prefix, self._n_usable))
+            self._satisfied_in_a_row = self._satisfied_in_a_row + 1 if self._satisfies() else 0
         elif not at_end:
             return
         self.too_many_failed = self.failed_in_prefix > self.max_failed_fraction * self.prefix
-        if at_end or self.too_many_failed or is_converged(self._looks, self.rule):
+        if at_end or self.too_many_failed or self._satisfied_in_a_row >= LOOKS_IN_A_ROW:
             self.size = self.prefix
+
+    def _satisfies(self) -> bool:
+        """Whether this checkpoint satisfies the rule; the mean is asked first, because it costs little."""
+        mean = mean_interval(self._usable[: self._n_usable], self.rule.confidence)
+        return mean.precision <= self.rule.mean_tolerance and self.latest().satisfies(self.rule)
+
+    def _look(self, realizations: int, usable: int) -> Checkpoint:
+        """Return the estimates from a prefix with so many usable run-outs; computed once."""
+        if realizations not in self._looks:
+            runouts = self._usable[:usable]
+            self._looks[realizations] = look(runouts, realizations, self.rule.confidence, self.threshold)
+        return self._looks[realizations]
 
     @property
     def done(self) -> int:
@@ -109,16 +125,14 @@ class Tally:
         return baseline.final_runout if baseline is not None and baseline.status not in FAILED else math.nan
 
     def latest(self) -> Checkpoint:
-        """Return the estimates from the whole prefix; computed once for each length of it."""
-        if self._latest is None or self._latest.realizations != self.prefix:
-            usable = self._usable[: self._n_usable]
-            self._latest = look(usable, self.prefix, self.rule.confidence, self.threshold)
-        return self._latest
+        """Return the estimates from the whole prefix."""
+        return self._look(self.prefix, self._n_usable)
 
     def history(self) -> ConvergenceHistory:
         """Return the estimates at the checkpoints of the prefix, and at its end."""
-        is_at_checkpoint = bool(self._looks) and self._looks[-1].realizations == self.prefix
-        return tabulate(self._looks if is_at_checkpoint else [*self._looks, self.latest()], self.rule)
+        end = (self.prefix, self._n_usable)
+        places = self._checkpoints if end in self._checkpoints[-1:] else [*self._checkpoints, end]
+        return tabulate([self._look(*place) for place in places], self.rule)
 
     def checkpoints(self) -> int:
         """Return how many checkpoints the prefix has passed."""
