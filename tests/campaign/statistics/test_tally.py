@@ -64,7 +64,7 @@ def test_the_running_account_is_that_of_all_run_outs_at_once(seed):
     rng = np.random.default_rng(seed)
     count = int(rng.integers(1, 160))
     rule = StoppingRule(
-        rng.uniform(0.001, 0.05), rng.uniform(0.1, 1.0), 0.95, int(rng.integers(10, 60)), int(rng.integers(1, 9))
+        rng.uniform(0.001, 0.2), rng.uniform(0.1, 2.0), 0.95, int(rng.integers(10, 60)), int(rng.integers(1, 9))
     )
     statuses = rng.choice(list(Status), count + 1, p=[0.8, 0.05, 0.07, 0.02, 0.02, 0.02, 0.02])
     runouts = np.where(rng.random(count + 1) < 0.02, np.nan, rng.lognormal(2, 0.3, count + 1))
