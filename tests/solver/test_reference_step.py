@@ -1,0 +1,122 @@
+"""One step of the fused kernels is one step of the plain reference, whatever the method."""
+
+import itertools
+
+import numpy as np
+import pytest
+from reference_step import Method, reference_step
+from small_slope import small_model, with_strength
+
+from solver.basis import half_length_in_cells
+from solver.constants import STANDARD_GRAVITY
+from solver.in_situ import in_situ_state
+from solver.internal_length import smoothing_weights
+from solver.march import March
+from solver.mohr_coulomb import update_stress
+from solver.operations import GRAVITY_WORK, INTERNAL_WORK
+from solver.particles import copy_particles
+from solver.step import LOCKING, STRESS_UPDATES, Scheme, advance, allocate_workspace
+
+MODEL = small_model()
+MID_SLIDE = 0.6  # s
+DT = 2e-3  # s
+INTERNAL_LENGTH = 2.0  # m: four cells, of which pooling and the band supply 2.4
+TOLERANCE = 1e-12  # of the largest magnitude of a field
+BASES = ("linear", "gimp", "bspline")
+
+
+@pytest.fixture(scope="module")
+def mid_slide():
+    """Return the slope while it slides, yields and softens, with a strength and a dilation of its own everywhere."""
+    start = with_strength(in_situ_state(MODEL))
+    rng = np.random.default_rng(11)
+    start.cohesion[:] *= rng.uniform(0.7, 1.3, start.x.size)
+    start.friction_angle[:] *= rng.uniform(0.7, 1.3, start.x.size)
+    march = March(MODEL, start)
+    assert march.advance_to(MID_SLIDE) is None
+    assert np.hypot(march.particles.velocity_x, march.particles.velocity_y).max() > 1.0
+    assert np.mean(march.particles.plastic_strain > 0.01) > 0.2
+    return march.particles
+
+
+def soil_with(internal_length):
+    return MODEL.soil._replace(internal_length=internal_length)
+
+
+def grid_of(basis, internal_length):
+    half_length = half_length_in_cells(basis, MODEL.particles_per_cell)
+    grid = MODEL._replace(half_length=half_length).allocate_grid()
+    return grid._replace(smoothing=smoothing_weights(internal_length, MODEL.cell_size, half_length))
+
+
+def fused_step(start, basis, method, gravity, rate):
+    """Return particles, nodes and energy ledger after one step of ``advance``."""
+    particles = copy_particles(start)
+    internal_length = INTERNAL_LENGTH if method.has_internal_length else 0.0
+    grid, work = grid_of(basis, internal_length), allocate_workspace(start.x.size)
+    locking = LOCKING["cell-average" if method.has_cell_averages else "none"]
+    scheme = Scheme(STRESS_UPDATES[method.stress_update], method.flip_fraction, method.damping, locking)
+    assert advance(particles, grid, work, soil_with(internal_length), scheme, gravity, rate, DT, 1) == 1
+    return particles, grid, work.ledger
+
+
+def plain_step(start, basis, method, gravity, rate):
+    soil, grid = soil_with(0.0), grid_of(basis, INTERNAL_LENGTH)
+
+    def point_law(p, *state):
+        return update_stress(*state, start.cohesion[p], start.friction_angle[p], soil)
+
+    return reference_step(start, grid, point_law, method, gravity, rate, DT)
+
+
+def largest_deviation(start, basis, method, gravity=STANDARD_GRAVITY, rate=0.0):
+    """Return the largest deviation of any quantity of a step, over its largest magnitude; NaN if there is one."""
+    particles, grid, ledger = fused_step(start, basis, method, gravity, rate)
+    plain = plain_step(start, basis, method, gravity, rate)
+    mass = plain.mass[:, None]
+    pairs = [
+        *zip(particles, plain.particles, strict=True),
+        *((getattr(grid, name), value) for name, value in plain.nodes._asdict().items()),
+        (mass * grid.velocity, mass * plain.velocity),  # by mass: what a nearly empty node does moves nothing
+        (mass * grid.acceleration, mass * plain.acceleration),
+        (ledger[INTERNAL_WORK], plain.work_of_stresses),
+        (ledger[GRAVITY_WORK], plain.work_of_gravity),
+    ]
+    return np.max([np.abs(a - b).max() / np.abs(b).max() for a, b in pairs])
+
+
+METHODS = [Method(u, 1.0, 0.0, c, n) for u, c, n in itertools.product(STRESS_UPDATES, (False, True), (False, True))]
+
+
+@pytest.mark.parametrize("basis", BASES)
+@pytest.mark.parametrize(
+    "method", METHODS, ids=lambda m: f"{m.stress_update}-{m.has_cell_averages}-{m.has_internal_length}"
+)
+def test_a_step_is_that_of_the_box(mid_slide, basis, method):
+    assert largest_deviation(mid_slide, basis, method) < TOLERANCE
+
+
+@pytest.mark.parametrize("basis", BASES)
+@pytest.mark.parametrize("stress_update", STRESS_UPDATES)
+def test_a_damped_step_with_a_share_of_pic_while_gravity_grows(mid_slide, basis, stress_update):
+    method = Method(stress_update, 0.9, 0.7, True, True)
+    assert largest_deviation(mid_slide, basis, method, gravity=4.0, rate=3.0) < TOLERANCE
+
+
+def test_the_step_under_test_yields_and_weakens_and_smooths(mid_slide):
+    """Each part of the reference changes the result by far more than the tolerance, or it would test nothing."""
+    plain = Method("musl")
+    base = plain_step(mid_slide, "gimp", plain, STANDARD_GRAVITY, 0.0).particles
+    assert np.mean(base.plastic_strain > mid_slide.plastic_strain) > 0.2
+    for change in (
+        {"has_cell_averages": True},
+        {"has_internal_length": True},
+        {"flip_fraction": 0.9},
+        {"damping": 0.7},
+    ):
+        other = plain_step(mid_slide, "gimp", plain._replace(**change), STANDARD_GRAVITY, 0.0).particles
+        largest = max(
+            np.abs(getattr(other, name) - getattr(base, name)).max() / np.abs(getattr(base, name)).max()
+            for name in ("velocity_x", "stress_xx", "plastic_strain")
+        )
+        assert largest > 1e-6
