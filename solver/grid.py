@@ -27,7 +27,7 @@ class Grid(NamedTuple):
     acceleration: np.ndarray  # (nodes, 2) m/s2
     velocity: np.ndarray  # (nodes, 2) m/s, at the end of the step
     remapped: np.ndarray  # (nodes, 2) momentum (kg/s), then velocity (m/s), of the updated particles
-    cell_volume: np.ndarray  # (nodes,) m2; a cell has the number of its lower left node, see ``mean_dilation``
+    cell_volume: np.ndarray  # (nodes,) m2; a cell has the number of its lower left node, see ``cells``
     cell_dilation: np.ndarray  # (nodes,) mean increment of the volume strain
     cell_pressure: np.ndarray  # (nodes,) Pa, mean of (s_xx + s_yy) / 2
     cell_plastic_strain: np.ndarray  # (nodes,) averaged increment, see ``nonlocal_softening``

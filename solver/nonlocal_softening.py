@@ -17,12 +17,12 @@ is right in bands and in ground that deforms as a whole. Bands stay as thin as t
 Int. J. Eng. Sci. 41:1553), but force and dissipation no longer depend on how thin. Increments are averaged and
 ``kappa`` is carried by the particle, so ground that slides away remembers where it was weakened.
 
-On the grid: particles are pooled in cells (``mean_dilation``), sums of volume and of volume times increment are
+On the grid: particles are pooled in cells (``cells``), sums of volume and of volume times increment are
 smoothed alike (``internal_length`` says how much), and their quotient is read back.
 """
 
 from solver._jit import kernel, law
-from solver.mean_dilation import pool, read
+from solver.cells import average, clear, pool, read
 
 
 @law
@@ -53,17 +53,12 @@ def smooth(sums, scratch, grid):
 @kernel
 def average_plastic_strain(particles, grid, before):
     """Replace the increments of plastic strain since ``before`` (n,) by their average over the internal length."""
-    grid.cell_volume[:] = 0.0
-    grid.cell_plastic_strain[:] = 0.0
+    clear(grid.cell_plastic_strain, grid)
     for p in range(particles.x.size):
-        volume = particles.volume[p]
         increment = particles.plastic_strain[p] - before[p]
-        pool(grid.cell_volume, volume, particles.x[p], particles.y[p], grid)
-        pool(grid.cell_plastic_strain, volume * increment, particles.x[p], particles.y[p], grid)
+        pool(grid.cell_plastic_strain, increment, particles.volume[p], particles.x[p], particles.y[p], grid)
     smooth(grid.cell_volume, grid.cell_scratch, grid)
     smooth(grid.cell_plastic_strain, grid.cell_scratch, grid)
-    for c in range(grid.cell_volume.size):
-        volume = grid.cell_volume[c]
-        grid.cell_plastic_strain[c] = grid.cell_plastic_strain[c] / volume if volume > 0.0 else 0.0
+    average(grid.cell_plastic_strain, 0.0, grid)
     for p in range(particles.x.size):
         particles.plastic_strain[p] = before[p] + read(grid.cell_plastic_strain, particles.x[p], particles.y[p], grid)

@@ -23,14 +23,8 @@ import numpy as np
 
 from solver._jit import kernel
 from solver.basis import Stencil, allocate_stencil, evaluate_stencil
-from solver.mean_dilation import (
-    average,
-    clear_cells,
-    pool_dilation,
-    pool_pressure,
-    replace_dilation,
-    with_cell_pressure,
-)
+from solver.cells import average, clear
+from solver.mean_dilation import NO_VOLUME, pool_dilation, pool_pressure, read_pressure, replace_dilation
 from solver.nonlocal_softening import average_plastic_strain
 from solver.operations import (
     INTERNAL_WORK,
@@ -61,6 +55,7 @@ class Workspace(NamedTuple):
 
     stencil: Stencil
     increment: np.ndarray  # (4, BLOCK) displacement gradient increments L dt: xx, xy, yx, yy
+    normal_stress: np.ndarray  # (2, BLOCK) Pa, xx and yy with the mean of their cells
     increments: np.ndarray  # (blocks, 4, BLOCK) the same of all particles, where cells are averaged
     moved_x: np.ndarray  # (n,) m, places at the end of the step
     moved_y: np.ndarray  # (n,) m
@@ -73,6 +68,7 @@ def allocate_workspace(n_particles: int) -> Workspace:
     return Workspace(
         stencil=allocate_stencil(BLOCK),
         increment=np.empty((4, BLOCK)),
+        normal_stress=np.empty((2, BLOCK)),
         increments=np.empty((-(-n_particles // BLOCK), 4, BLOCK)),
         moved_x=np.empty(n_particles),
         moved_y=np.empty(n_particles),
@@ -97,13 +93,13 @@ def spread_all(particles, grid, work):
     for start in range(0, particles.x.size, BLOCK):
         block = take_block(particles, start, start + BLOCK)
         evaluate_stencil(work.stencil, block.x, block.y, grid)
-        particle_to_grid(block, work.stencil, grid)
+        particle_to_grid(block, block.stress_xx, block.stress_yy, block.stress_xy, work.stencil, grid)
 
 
 @kernel
 def pool_all_pressure(particles, grid):
     """Collect the pressure of the cells from all particles."""
-    clear_cells(grid)
+    clear(grid.cell_pressure, grid)
     for start in range(0, particles.x.size, BLOCK):
         pool_pressure(take_block(particles, start, start + BLOCK), grid)
 
@@ -111,12 +107,13 @@ def pool_all_pressure(particles, grid):
 @kernel
 def spread_all_with_cell_pressure(particles, grid, work):
     """Operation 1 for all particles, with the pooled pressure of the cells in the internal force."""
-    average(grid.cell_pressure, grid)
+    average(grid.cell_pressure, NO_VOLUME, grid)
     clear_state(grid)
     for start in range(0, particles.x.size, BLOCK):
         block = take_block(particles, start, start + BLOCK)
         evaluate_stencil(work.stencil, block.x, block.y, grid)
-        particle_to_grid(with_cell_pressure(block, work.increment, grid), work.stencil, grid)
+        read_pressure(block, work.normal_stress, grid)
+        particle_to_grid(block, work.normal_stress[0], work.normal_stress[1], block.stress_xy, work.stencil, grid)
 
 
 @kernel
@@ -168,7 +165,7 @@ def deform_each(particles, grid, work, soil, scheme, gravity, dt):
             if not move(block, work.moved_x[start:stop], work.moved_y[start:stop], grid, gravity, work.ledger):
                 return False
             evaluate_stencil(work.stencil, block.x, block.y, grid)
-        particle_to_grid(block, work.stencil, grid)
+        particle_to_grid(block, block.stress_xx, block.stress_yy, block.stress_xy, work.stencil, grid)
     return True
 
 
@@ -176,14 +173,15 @@ def deform_each(particles, grid, work, soil, scheme, gravity, dt):
 def deform_cells(particles, grid, work, soil, scheme, gravity, dt):
     """Do the same with the dilation and the pressure of cells, in three passes; return whether all are inside."""
     nodal_velocity = grid.velocity if scheme.stress_update == USL else grid.remapped
-    clear_cells(grid)
+    clear(grid.cell_dilation, grid)
     for start in range(0, particles.x.size, BLOCK):
         block = take_block(particles, start, start + BLOCK)
         increment = work.increments[start // BLOCK]
         evaluate_stencil(work.stencil, block.x, block.y, grid)
         gather_increments(increment, nodal_velocity, work.stencil, block.x.size, grid.columns, dt)
         pool_dilation(block, increment, grid)
-    average(grid.cell_dilation, grid)
+    average(grid.cell_dilation, NO_VOLUME, grid)
+    clear(grid.cell_pressure, grid)
     for start in range(0, particles.x.size, BLOCK):
         stop = start + BLOCK
         block = take_block(particles, start, stop)

@@ -10,18 +10,28 @@ def three(values, p):
 
 
 @law
-def particle_to_grid(particles, stencil, grid):
-    """Add mass, momentum and internal force to the nodes.
+def particle_to_grid(particles, stress_xx, stress_yy, stress_xy, stencil, grid):
+    """Add mass, momentum and internal force of a block of particles to the nodes.
 
     ``m_i += S_ip m_p``, ``(mv)_i += S_ip m_p v_p``, ``f_i -= V_p sigma_p . grad S_ip``.
+
+    Parameters
+    ----------
+    particles : Particles (n,)
+    stress_xx, stress_yy, stress_xy : ndarray (n,)
+        The stress in Pa that pushes the nodes: that of the particles, or what takes its place.
+    stencil : Stencil
+        Weights of the particles.
+    grid : Grid
+        Its ``mass``, ``momentum`` and ``force`` are modified.
     """
     for p in range(particles.x.size):
         mass = particles.mass[p]
         momentum_x = mass * particles.velocity_x[p]
         momentum_y = mass * particles.velocity_y[p]
-        xx = -particles.volume[p] * particles.stress_xx[p]
-        yy = -particles.volume[p] * particles.stress_yy[p]
-        xy = -particles.volume[p] * particles.stress_xy[p]
+        xx = -particles.volume[p] * stress_xx[p]
+        yy = -particles.volume[p] * stress_yy[p]
+        xy = -particles.volume[p] * stress_xy[p]
         first = stencil.node[p]
         sx, sy, gx, gy = three(stencil.sx, p), three(stencil.sy, p), three(stencil.gx, p), three(stencil.gy, p)
         for j in range(3):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from small_slope import small_model, with_strength
 
-from solver import mean_dilation
+from solver import cells, mean_dilation
 from solver._jit import kernel
 from solver.filling import fill_ground
 from solver.in_situ import in_situ_state
@@ -35,9 +35,9 @@ def disturbed():
 
 @kernel
 def cell_mean(particles, increment, grid):
-    mean_dilation.clear_cells(grid)
+    cells.clear(grid.cell_dilation, grid)
     mean_dilation.pool_dilation(particles, increment, grid)
-    mean_dilation.average(grid.cell_dilation, grid)
+    cells.average(grid.cell_dilation, mean_dilation.NO_VOLUME, grid)
     mean_dilation.replace_dilation(particles, increment, grid)
 
 
