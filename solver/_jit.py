@@ -1,7 +1,8 @@
 """The one place where Numba is configured.
 
-``kernel`` compiles passes over all particles or nodes; ``law`` compiles what they are made of, scalar functions of one
-point and operations on a block of particles, always inlined so that LLVM can vectorise the loops as a whole.
+``kernel`` compiles passes over all particles or nodes. What they are made of is always inlined, so that LLVM can
+vectorise the loops as a whole. ``inlined`` compiles operations on a block of particles. ``point`` marks functions of
+one point, which stay plain Python outside kernels.
 """
 
 import hashlib
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numba
+from numba.extending import overload, register_jitable
 
 
 def _cache_directory() -> Path:
@@ -19,8 +21,9 @@ def _cache_directory() -> Path:
     Numba's cache does not notice an edit in a callee of another file, so the directory is keyed by all sources.
     """
     digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(source.read_bytes())
+    home = Path(__file__).parent
+    for source in sorted(home.rglob("*.py")):
+        digest.update(f"{source.relative_to(home)}\n".encode() + source.read_bytes())
     user = os.environ.get("USER") or str(os.getuid())
     return Path(tempfile.gettempdir()) / f"runout-solver-{user}" / digest.hexdigest()[:16]
 
@@ -38,6 +41,16 @@ _FLAGS: dict[str, Any] = {
     # Other threads of the process (the hand-out of realizations) run while a kernel computes.
     "nogil": True,
 }
+_INLINED = {"forceinline": True, **_FLAGS}
 
 kernel = numba.njit(**_FLAGS)
-law = numba.njit(forceinline=True, **_FLAGS)
+inlined = numba.njit(**_INLINED)
+point = register_jitable(**_INLINED)
+
+
+def chosen_by_type(function: Any) -> Any:
+    """Let kernels call, in place of ``function``, what the decorated function of the argument types returns.
+
+    The choice is made while a kernel is compiled and costs nothing when it runs.
+    """
+    return overload(function, jit_options=_INLINED, strict=False)  # type: ignore[arg-type]

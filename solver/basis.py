@@ -9,12 +9,13 @@ three nodes from ``floor(xi - l_p)`` on. With ``d = xi - floor(xi - l_p)`` and `
     S_0' = -1 + t / (2 l_p)          S_2' = t / (2 l_p)       S_1' = -S_0' - S_2'
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
-from solver._jit import law
+from solver._jit import inlined
+from solver.grid import particle_spacing
+from solver.method import Basis
 
 HALF_LENGTH_IN_CELLS = {
     "linear": 1e-6,  # the hat function to 1e-6, without a case of its own
@@ -22,7 +23,7 @@ HALF_LENGTH_IN_CELLS = {
 }
 
 
-def half_length_in_cells(basis: str, particles_per_cell: int) -> float:
+def half_length_in_cells(basis: Basis, particles_per_cell: int) -> float:
     """Return the half length of a particle's domain over the cell size.
 
     Parameters
@@ -31,7 +32,7 @@ def half_length_in_cells(basis: str, particles_per_cell: int) -> float:
     particles_per_cell : int
         A square number; uGIMP particles tile the cell, so ``l_p = h / (2 sqrt(particles_per_cell))``.
     """
-    return HALF_LENGTH_IN_CELLS.get(basis, 0.5 / math.sqrt(particles_per_cell))
+    return HALF_LENGTH_IN_CELLS.get(basis, 0.5 * particle_spacing(1.0, particles_per_cell))
 
 
 class Stencil(NamedTuple):
@@ -49,7 +50,7 @@ def allocate_stencil(block_size: int) -> Stencil:
     return Stencil(np.empty(block_size, np.int64), *(np.empty((3, block_size)) for _ in range(4)))
 
 
-@law
+@inlined
 def weight_and_gradient(distance, half_length, inverse_cell):
     """Return ``(S_0, S_1, S_2, S_0', S_1', S_2')`` at ``distance`` cells from the first of the three nodes."""
     t = max(0.0, distance - (1.0 - half_length))
@@ -60,7 +61,7 @@ def weight_and_gradient(distance, half_length, inverse_cell):
     return (s0, 1.0 - s0 - s2, s2, g0 * inverse_cell, -(g0 + g2) * inverse_cell, g2 * inverse_cell)
 
 
-@law
+@inlined
 def evaluate_stencil(stencil, x, y, grid):
     """Fill ``stencil`` for the particles at ``x``, ``y`` (m, relative to the walls)."""
     inverse_cell = 1.0 / grid.cell_size

@@ -1,9 +1,9 @@
 """Nodal conditions: the base is fixed, the sides are rollers, and so is every node beyond them."""
 
-from solver._jit import law
+from solver._jit import inlined
 
 
-@law
+@inlined
 def constrain(vectors, grid):
     """Cancel the constrained components of a nodal vector field ``(nodes, 2)``, in place."""
     for i in range(vectors.shape[0]):

@@ -6,10 +6,10 @@
 weights do. The arrays of cells are numbered like the nodes: a cell has the number of its lower left corner.
 """
 
-from solver._jit import law
+from solver._jit import inlined
 
 
-@law
+@inlined
 def overlap(x, grid):
     """Return the first cell that a particle's domain touches along one axis, and the share that lies in the next."""
     xi = (x - grid.origin) / grid.cell_size
@@ -18,14 +18,14 @@ def overlap(x, grid):
     return first, min(1.0, max(0.0, beyond / (2.0 * grid.half_length)))
 
 
-@law
+@inlined
 def clear(sums, grid):
     """Empty sums over cells ``(nodes,)`` and the volumes that they are weighted with, before particles are pooled."""
     sums[:] = 0.0
     grid.cell_volume[:] = 0.0
 
 
-@law
+@inlined
 def pool(sums, value, volume, x, y, grid):
     """Add ``w_cp V_p value_p`` of one particle to ``sums`` ``(nodes,)``, and ``w_cp V_p`` to the volumes of the cells.
 
@@ -46,7 +46,7 @@ def pool(sums, value, volume, x, y, grid):
     _add(grid.cell_volume, volume, cell, right, upper, grid.columns)
 
 
-@law
+@inlined
 def _add(sums, value, cell, right, upper, columns):
     """Share ``value`` among four cells, ``cell`` the lower left of them."""
     sums[cell] += (1.0 - right) * (1.0 - upper) * value
@@ -55,7 +55,7 @@ def _add(sums, value, cell, right, upper, columns):
     sums[cell + columns + 1] += right * upper * value
 
 
-@law
+@inlined
 def average(sums, least, grid):
     """Turn sums over cells ``(nodes,)`` into means, in place; 0 where the volume is not above ``least`` (m2)."""
     for c in range(sums.size):
@@ -63,7 +63,7 @@ def average(sums, least, grid):
         sums[c] = sums[c] / volume if volume > least else 0.0
 
 
-@law
+@inlined
 def read(means, x, y, grid):
     """Return ``sum_c w_cp mean_c`` for a particle at ``x``, ``y`` (m)."""
     i, right = overlap(x, grid)

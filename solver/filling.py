@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from solver.grid import whole_cells
-from solver.particles import Particles, allocate_particles
+from solver.grid import particle_spacing, whole_cells
+from solver.model import Model
+from solver.particles import Particles, allocate_particles, assign_material
 from solver.surface import Surface
 
 
@@ -13,8 +14,8 @@ def fill_ground(surface: Surface, cell_size: float, particles_per_cell: int, den
     A particle stands for the lattice square around it, so an inclined surface is a staircase of half a spacing. The
     ground reaches to the wall of the grid, which is the next node beyond the end of the surface.
     """
-    per_side = round(np.sqrt(particles_per_cell))
-    spacing = cell_size / per_side
+    spacing = particle_spacing(cell_size, particles_per_cell)
+    per_side = round(cell_size / spacing)
     columns = whole_cells(surface.width, cell_size) * per_side
     rows = int(np.ceil(surface.top / spacing))
     x = (np.arange(columns) + 0.5) * spacing
@@ -24,3 +25,11 @@ def fill_ground(surface: Surface, cell_size: float, particles_per_cell: int, den
     x, y = x[below], y[below]
     order = np.lexsort((x // cell_size, y // cell_size))
     return allocate_particles(x[order], y[order], spacing**2, density)
+
+
+def ground_of(model: Model) -> Particles:
+    """Return the particles of a model on their lattice, each of the material whose layer it lies in."""
+    ground = fill_ground(model.surface, model.cell_size, model.particles_per_cell, model.materials[0].density)
+    for number, top in enumerate(model.interfaces, start=1):
+        assign_material(ground, ground.y < top.height_at(ground.x), number, model.materials[number].density)
+    return ground

@@ -40,6 +40,11 @@ def whole_cells(length: float, cell_size: float) -> int:
     return int(np.ceil(length / cell_size - 1e-9))
 
 
+def particle_spacing(cell_size: float, particles_per_cell: int) -> float:
+    """Return the distance in m between the particles of a lattice that fills square cells."""
+    return float(cell_size / np.sqrt(particles_per_cell))
+
+
 def allocate_grid(
     width: float, height: float, cell_size: float, half_length: float, smoothing: np.ndarray = NO_SMOOTHING
 ) -> Grid:

@@ -4,12 +4,12 @@ import numpy as np
 
 from solver import observables
 from solver.constants import STANDARD_GRAVITY
-from solver.filling import fill_ground
+from solver.filling import ground_of
 from solver.grid import Grid
+from solver.method import Method
 from solver.model import Model
 from solver.particles import Particles
-from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace
-from solver.surface import Surface
+from solver.step import advance, allocate_workspace, scheme_of
 from solver.timestep import stable_step
 
 LOCAL_DAMPING = 0.7  # share of the unbalanced force (Cundall); gone after release
@@ -22,9 +22,20 @@ class NotSettledError(RuntimeError):
     """The ground does not come to rest under its own weight."""
 
 
-def lay_geostatic_stress(particles: Particles, surface: Surface, unit_weight: float, poisson_ratio: float) -> None:
-    """Start from ``s_yy = -gamma depth``, ``s_xx = s_zz = nu / (1 - nu) s_yy``: exact under level ground."""
-    vertical = -unit_weight * np.maximum(surface.height_at(particles.x) - particles.y, 0.0)
+def overburden(model: Model, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return the weight in Pa of the ground above each place, ``sum gamma_k thickness_k`` over the layers."""
+    weight = np.zeros_like(x)
+    tops = [surface.height_at(x) for surface in (model.surface, *model.interfaces)]
+    bottoms = [*tops[1:], np.full_like(x, -np.inf)]
+    for material, top, bottom in zip(model.materials, tops, bottoms, strict=True):
+        weight += material.unit_weight * np.maximum(np.minimum(top, tops[0]) - np.maximum(bottom, y), 0.0)
+    return weight
+
+
+def lay_geostatic_stress(particles: Particles, model: Model) -> None:
+    """Start from ``s_yy = -overburden``, ``s_xx = s_zz = nu / (1 - nu) s_yy``, exact under level ground; in place."""
+    vertical = -overburden(model, particles.x, particles.y)
+    poisson_ratio = np.array([material.poisson_ratio for material in model.materials])[particles.material]
     horizontal = poisson_ratio / (1.0 - poisson_ratio) * vertical
     particles.stress_yy[:] = vertical
     particles.stress_xx[:] = horizontal
@@ -47,17 +58,17 @@ def in_situ_state(model: Model) -> Particles:
     NotSettledError
         If the unbalanced force does not fall below 1e-4 of the weight.
     """
-    particles = fill_ground(model.surface, model.cell_size, model.particles_per_cell, model.density)
-    lay_geostatic_stress(particles, model.surface, model.unit_weight, model.poisson_ratio)
+    particles = ground_of(model)
+    lay_geostatic_stress(particles, model)
     grid = model.allocate_grid()
     work = allocate_workspace(particles.x.size)
-    scheme = Scheme(STRESS_UPDATES["musl"], 1.0, LOCAL_DAMPING, model.scheme.locking)
+    scheme = scheme_of(Method(model.method.basis, locking=model.method.locking), damping=LOCAL_DAMPING)
     dt = stable_step(min(model.courant, 0.5), model.cell_size, model.wave_speed, 0.0)
     unbalanced = np.inf
     steps = 0
     for _ in range(MOST_CHECKS):
         steps += STEPS_BETWEEN_CHECKS
-        taken = advance(particles, grid, work, model.soil, scheme, STANDARD_GRAVITY, 0.0, dt, STEPS_BETWEEN_CHECKS)
+        taken = advance(particles, grid, work, model.laws, scheme, STANDARD_GRAVITY, 0.0, dt, STEPS_BETWEEN_CHECKS)
         if taken < STEPS_BETWEEN_CHECKS or not np.isfinite(observables.kinetic_energy(particles)):
             break
         unbalanced = unbalanced_share(grid, STANDARD_GRAVITY)

@@ -38,6 +38,32 @@ def coarse_rate_factor(internal_length: float, cell_size: float, half_length: fl
     return max(1.0, thickness / internal_length) if internal_length > 0.0 else 1.0
 
 
+def rate_on_cells(
+    rate: float,
+    cell_size: float,
+    half_length: float,
+    internal_length: float = 0.0,
+    reference_cell: float | None = None,
+) -> float:
+    """Return the softening rate that cells of this size need, per unit plastic strain.
+
+    Parameters
+    ----------
+    rate : float
+        Where it is known: for bands over the internal length, or on cells of ``reference_cell``.
+    cell_size : float
+        In m.
+    half_length : float
+        Of a particle's domain, in cells.
+    internal_length : float
+        In m; with one the rate is raised only on cells too coarse for it. 0: softening is local.
+    reference_cell : float, optional
+        In m; local bands are as thin as the cells, so their rate goes with the cell. None: the rate is as it is.
+    """
+    local = rate if reference_cell is None else rate * cell_size / reference_cell
+    return local * coarse_rate_factor(internal_length, cell_size, half_length)
+
+
 def smoothing_weights(internal_length: float, cell_size: float, half_length: float) -> np.ndarray:
     """Return the weights (2k + 1,) of the filter along one axis that makes up the variance ``l^2 / 2 pi``.
 

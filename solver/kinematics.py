@@ -1,9 +1,9 @@
 """From the velocity gradient to strain, rotation and volume."""
 
-from solver._jit import law
+from solver._jit import point
 
 
-@law
+@point
 def rotate_stress(xx, yy, xy, rotation):
     """Return the in-plane stress (Pa) turned by the rotation increment ``W_xy dt`` with Cayley's exact rotation.
 
@@ -22,7 +22,7 @@ def rotate_stress(xx, yy, xy, rotation):
     return mean + turned, mean - turned, xy * cos_2 - difference * sin_2
 
 
-@law
+@point
 def volume_ratio(l_xx, l_xy, l_yx, l_yy):
     """Return ``det(1 + L dt)`` of the increment of the displacement gradient."""
     return (1.0 + l_xx) * (1.0 + l_yy) - l_xy * l_yx

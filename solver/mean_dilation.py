@@ -17,13 +17,13 @@ of the stresses is the work that the nodes see. With the particles' own ``P`` in
 energy that gravity gives it.
 """
 
-from solver._jit import law
+from solver._jit import inlined
 from solver.cells import pool, read
 
 NO_VOLUME = 1e-12  # m2: an empty cell
 
 
-@law
+@inlined
 def pool_dilation(particles, increment, grid):
     """Add volume and dilation of the block to the cells; ``increment`` (4, n) is the displacement gradient."""
     for p in range(particles.x.size):
@@ -31,7 +31,7 @@ def pool_dilation(particles, increment, grid):
         pool(grid.cell_dilation, dilation, particles.volume[p], particles.x[p], particles.y[p], grid)
 
 
-@law
+@inlined
 def replace_dilation(particles, increment, grid):
     """Give the displacement gradients ``increment`` (4, n) of the block the dilation of their cells, in place."""
     for p in range(particles.x.size):
@@ -41,7 +41,7 @@ def replace_dilation(particles, increment, grid):
         increment[3, p] += correction
 
 
-@law
+@inlined
 def pool_pressure(particles, grid):
     """Add volume and in-plane mean stress of the block to the cells."""
     for p in range(particles.x.size):
@@ -49,7 +49,7 @@ def pool_pressure(particles, grid):
         pool(grid.cell_pressure, mean_stress, particles.volume[p], particles.x[p], particles.y[p], grid)
 
 
-@law
+@inlined
 def read_pressure(particles, normal_stress, grid):
     """Fill ``normal_stress`` (2, n), xx and yy in Pa, with those of the block, but with the mean of their cells."""
     for p in range(particles.x.size):

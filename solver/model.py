@@ -1,70 +1,61 @@
 """What defines a simulation besides the strength of its particles."""
 
-import math
 from typing import NamedTuple
 
-from solver.constants import STANDARD_GRAVITY
-from solver.elastic import bulk_modulus, p_wave_speed, shear_modulus
-from solver.grid import Grid, allocate_grid
+from solver.basis import half_length_in_cells
+from solver.grid import Grid, allocate_grid, particle_spacing
 from solver.internal_length import smoothing_weights
-from solver.mohr_coulomb import Soil
-from solver.slide import PAPER, Slide
-from solver.step import Scheme
+from solver.laws.registry import Law
+from solver.materials import Material
+from solver.method import Method
+from solver.slide import PAPER, SlideCriteria
+from solver.step import Scheme, scheme_of
 from solver.surface import Surface
 
 HEADROOM_IN_CELLS = 2  # space above the highest ground
 
 
 class Model(NamedTuple):
-    """Geometry, soil and numerics of one scene, in SI units."""
+    """Geometry, materials and numerics of one scene, in SI units."""
 
     surface: Surface
-    density: float  # kg/m3
-    poisson_ratio: float
-    soil: Soil
+    materials: tuple[Material, ...]  # from the surface down
     cell_size: float  # m
     particles_per_cell: int
-    half_length: float  # of a particle's basis functions, over the cell size
-    scheme: Scheme
     courant: float
-    ramp_time: float  # s over which gravity grows with plasticity active; 0 releases a loaded slope at once
-    slide: Slide = PAPER  # what counts as a slide
+    method: Method = Method()
+    internal_length: float = 0.0  # m over which plastic strain is averaged; 0: softening is local
+    ramp_time: float = 0.0  # s over which gravity grows with plasticity active; 0 releases a loaded slope at once
+    criteria: SlideCriteria = PAPER
+    interfaces: tuple[Surface, ...] = ()  # the k-th is the top of the material k + 1
 
     @property
-    def unit_weight(self) -> float:
-        """Weight of a volume in N/m3."""
-        return self.density * STANDARD_GRAVITY
+    def laws(self) -> tuple[Law, ...]:
+        """Parameters of the law of each material, as kernels take them."""
+        return tuple(material.law for material in self.materials)
 
     @property
     def wave_speed(self) -> float:
-        """P-wave speed in m/s."""
-        return p_wave_speed(self.soil.bulk_modulus, self.soil.shear_modulus, self.density)
+        """P-wave speed in m/s, of the fastest material."""
+        return max(material.wave_speed for material in self.materials)
+
+    @property
+    def particle_spacing(self) -> float:
+        """Distance in m between particles on their lattice."""
+        return particle_spacing(self.cell_size, self.particles_per_cell)
+
+    @property
+    def half_length(self) -> float:
+        """Half length of a particle's domain over the cell size."""
+        return half_length_in_cells(self.method.basis, self.particles_per_cell)
+
+    @property
+    def scheme(self) -> Scheme:
+        """The method as kernels take it, without damping."""
+        return scheme_of(self.method, averages_plastic_strain=self.internal_length > 0.0)
 
     def allocate_grid(self) -> Grid:
         """Return an empty grid for the scene."""
         height = self.surface.top + HEADROOM_IN_CELLS * self.cell_size
-        smoothing = smoothing_weights(self.soil.internal_length, self.cell_size, self.half_length)
+        smoothing = smoothing_weights(self.internal_length, self.cell_size, self.half_length)
         return allocate_grid(self.surface.width, height, self.cell_size, self.half_length, smoothing)
-
-
-def make_soil(
-    young_modulus: float,
-    poisson_ratio: float,
-    dilation_angle: float,
-    cohesion_residual: float,
-    friction_residual: float,
-    softening_rate: float,
-    softening_is_linear: bool,
-    internal_length: float = 0.0,
-) -> Soil:
-    """Return the shared soil properties from engineering constants (Pa, rad and m)."""
-    return Soil(
-        bulk_modulus(young_modulus, poisson_ratio),
-        shear_modulus(young_modulus, poisson_ratio),
-        math.sin(dilation_angle),
-        cohesion_residual,
-        friction_residual,
-        softening_rate,
-        softening_is_linear,
-        internal_length,
-    )

@@ -21,18 +21,18 @@ On the grid: particles are pooled in cells (``cells``), sums of volume and of vo
 smoothed alike (``internal_length`` says how much), and their quotient is read back.
 """
 
-from solver._jit import kernel, law
+from solver._jit import inlined, kernel
 from solver.cells import average, clear, pool, read
 
 
-@law
+@inlined
 def add_shifted(target, target_start, source, source_start, count, weight):
     """Add ``weight`` times ``count`` entries of ``source`` to ``target``."""
     for i in range(count):
         target[target_start + i] += weight * source[source_start + i]
 
 
-@law
+@inlined
 def smooth(sums, scratch, grid):
     """Convolve sums over cells with the filter along both axes, in place; beyond the grid there is nothing."""
     reach = grid.smoothing.size // 2

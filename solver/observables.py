@@ -4,7 +4,7 @@ import numpy as np
 
 from solver.grid import SMALLEST_MASS, Grid
 from solver.particles import Particles
-from solver.slide import Slide
+from solver.slide import SlideCriteria
 from solver.surface import Surface
 
 
@@ -14,9 +14,9 @@ def displacement(particles: Particles, start: Particles) -> np.ndarray:
     return distance
 
 
-def is_displaced(particles: Particles, start: Particles, slide: Slide) -> np.ndarray:
+def is_displaced(particles: Particles, start: Particles, criteria: SlideCriteria) -> np.ndarray:
     """Return the mask (n,) of the particles that belong to the sliding mass."""
-    moved: np.ndarray = displacement(particles, start) > slide.displaced
+    moved: np.ndarray = displacement(particles, start) > criteria.displaced
     return moved
 
 
@@ -26,34 +26,34 @@ def slope_body(start: Particles, surface: Surface) -> np.ndarray:
     return upslope
 
 
-def runout(particles: Particles, start: Particles, surface: Surface, slide: Slide) -> float:
+def runout(particles: Particles, start: Particles, surface: Surface, criteria: SlideCriteria) -> float:
     """Return the advance of the front-most slid particle of the slope body beyond the initial toe, in m (0 if none).
 
     Ground in front of the toe that is pushed or heaved does not count as run-out, only the material that comes over it.
     """
-    front = is_displaced(particles, start, slide) & slope_body(start, surface)
+    front = is_displaced(particles, start, criteria) & slope_body(start, surface)
     return max(0.0, float(particles.x[front].max() - surface.toe_x)) if front.any() else 0.0
 
 
-def runout_mass(particles: Particles, start: Particles, surface: Surface, slide: Slide) -> float:
-    """Return the advance in m of the place beyond which ``slide.front_area`` of the slid slope body lies (0 if none).
+def runout_mass(particles: Particles, start: Particles, surface: Surface, criteria: SlideCriteria) -> float:
+    """Return the advance in m of the place beyond which ``front_area`` of the slid slope body lies (0 if none).
 
     Areas are those before the slide, because grains that part gain volume. Between particles the area ahead is
     interpolated, so the measure changes continuously with the state.
     """
-    front = is_displaced(particles, start, slide) & slope_body(start, surface)
+    front = is_displaced(particles, start, criteria) & slope_body(start, surface)
     order = np.argsort(-particles.x[front], kind="stable")
     x = particles.x[front][order]
     area = start.volume[front][order]
     ahead = np.cumsum(area) - 0.5 * area
-    if x.size == 0 or ahead[-1] < slide.front_area:
+    if x.size == 0 or ahead[-1] < criteria.front_area:
         return 0.0
-    return max(0.0, float(np.interp(slide.front_area, ahead, x)) - surface.toe_x)
+    return max(0.0, float(np.interp(criteria.front_area, ahead, x)) - surface.toe_x)
 
 
-def sliding_volume(particles: Particles, start: Particles, slide: Slide) -> float:
+def sliding_volume(particles: Particles, start: Particles, criteria: SlideCriteria) -> float:
     """Return the area in m2 (m3 per metre run) that the displaced particles had before the slide."""
-    return float(start.volume[is_displaced(particles, start, slide)].sum())
+    return float(start.volume[is_displaced(particles, start, criteria)].sum())
 
 
 def kinetic_energy(particles: Particles) -> float:

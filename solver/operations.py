@@ -2,17 +2,18 @@
 
 import numpy as np
 
-from solver._jit import law
+from solver._jit import inlined
 from solver.boundary import constrain
 from solver.grid import SMALLEST_MASS
 from solver.kinematics import rotate_stress, volume_ratio
-from solver.mohr_coulomb import update_stress
+from solver.laws.registry import update_stress
+from solver.softening import Strength
 from solver.transfer import gradient, interpolate, spread_momentum
 
 INTERNAL_WORK, GRAVITY_WORK = 0, 1  # entries of the energy ledger
 
 
-@law
+@inlined
 def clear_state(grid):
     """Empty the nodes before the particles spread their state to them."""
     grid.mass[:] = 0.0
@@ -20,7 +21,7 @@ def clear_state(grid):
     grid.force[:] = 0.0
 
 
-@law
+@inlined
 def solve_momentum(grid, gravity, damping, dt):
     """Set nodal acceleration and the velocity at the end of the step from mass, momentum and force."""
     for i in range(grid.mass.size):
@@ -42,7 +43,7 @@ def solve_momentum(grid, gravity, damping, dt):
     constrain(grid.velocity, grid)
 
 
-@law
+@inlined
 def update_velocity(particles, stencil, grid, moved_x, moved_y, flip_fraction, dt):
     """Accelerate the particles and note where they will be at the end of the step."""
     for p in range(particles.x.size):
@@ -56,7 +57,7 @@ def update_velocity(particles, stencil, grid, moved_x, moved_y, flip_fraction, d
         particles.velocity_y[p] = flip_fraction * flip_y + (1.0 - flip_fraction) * v_y
 
 
-@law
+@inlined
 def remap_momentum(particles, stencil, grid):
     """Add the momentum of the accelerated particles to the nodes again."""
     for p in range(particles.x.size):
@@ -66,7 +67,7 @@ def remap_momentum(particles, stencil, grid):
         spread_momentum(grid.remapped, momentum_x, momentum_y, stencil, p, grid.columns)
 
 
-@law
+@inlined
 def remap_velocity(grid):
     """Turn remapped momentum into velocity that respects the walls."""
     for i in range(grid.mass.size):
@@ -76,7 +77,7 @@ def remap_velocity(grid):
     constrain(grid.remapped, grid)
 
 
-@law
+@inlined
 def gather_increments(increment, nodal_velocity, stencil, count, columns, dt):
     """Fill ``increment`` with the displacement gradients ``L dt`` of the block."""
     for p in range(count):
@@ -87,9 +88,21 @@ def gather_increments(increment, nodal_velocity, stencil, count, columns, dt):
         increment[3, p] = yy * dt
 
 
-@law
-def update_material(particles, increment, soil):
-    """Update stress, plastic strain and volume of the block; return the work of the stresses in J/m."""
+@inlined
+def update_material(particles, increment, law, dt):
+    """Update stress, plastic strain and volume of a block of particles; return the work of the stresses in J/m.
+
+    Parameters
+    ----------
+    particles : Particles (n,)
+        Modified.
+    increment : ndarray (4, n)
+        Displacement gradients ``L dt``: xx, xy, yx, yy.
+    law : NamedTuple
+        Parameters of their law.
+    dt : float
+        In s.
+    """
     work = 0.0
     for p in range(particles.x.size):
         l_xx = increment[0, p]
@@ -100,18 +113,14 @@ def update_material(particles, increment, soil):
         xx, yy, xy = rotate_stress(
             particles.stress_xx[p], particles.stress_yy[p], particles.stress_xy[p], 0.5 * (l_xy - l_yx)
         )
-        new_xx, new_yy, new_zz, new_xy, plastic_strain = update_stress(
-            xx,
-            yy,
-            particles.stress_zz[p],
-            xy,
-            l_xx,
-            l_yy,
-            shear,
-            particles.plastic_strain[p],
+        strength = Strength(
             particles.cohesion[p],
             particles.friction_angle[p],
-            soil,
+            particles.cohesion_residual[p],
+            particles.friction_angle_residual[p],
+        )
+        new_xx, new_yy, new_zz, new_xy, plastic_strain = update_stress(
+            law, (xx, yy, particles.stress_zz[p], xy), (l_xx, l_yy, shear), particles.plastic_strain[p], strength, dt
         )
         volume = particles.volume[p] * volume_ratio(l_xx, l_xy, l_yx, l_yy)
         mean_volume = 0.5 * (volume + particles.volume[p])
@@ -125,7 +134,7 @@ def update_material(particles, increment, soil):
     return work
 
 
-@law
+@inlined
 def are_inside(x, y, grid):
     """Return whether every place is finite and within the walls, give or take one cell."""
     outside = 0
@@ -136,7 +145,7 @@ def are_inside(x, y, grid):
     return outside == 0
 
 
-@law
+@inlined
 def move(particles, moved_x, moved_y, grid, gravity, ledger):
     """Put the particles at their new places and enter the work of gravity; return whether they are inside."""
     fall = 0.0

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solver._jit import law
+from solver._jit import inlined
 
 
 class Particles(NamedTuple):
@@ -23,13 +23,16 @@ class Particles(NamedTuple):
     plastic_strain: np.ndarray  # (n,) accumulated equivalent deviatoric plastic strain
     cohesion: np.ndarray  # (n,) Pa, peak
     friction_angle: np.ndarray  # (n,) rad, peak
+    cohesion_residual: np.ndarray  # (n,) Pa
+    friction_angle_residual: np.ndarray  # (n,) rad
+    material: np.ndarray  # (n,) number of the particle's material, from 0
 
 
 UNYIELDING = 1e15  # Pa: a cohesion that no stress reaches, so that the law is elastic
 
 
 def allocate_particles(x: np.ndarray, y: np.ndarray, volume: float, density: float) -> Particles:
-    """Return elastic particles at rest and free of stress.
+    """Return elastic particles of the material 0, at rest and free of stress.
 
     Parameters
     ----------
@@ -48,7 +51,14 @@ def allocate_particles(x: np.ndarray, y: np.ndarray, volume: float, density: flo
         mass=np.full(n, volume * density),
         volume=np.full(n, volume),
         cohesion=np.full(n, UNYIELDING),
+        material=np.zeros(n, np.uint8),
     )
+
+
+def assign_material(particles: Particles, where: np.ndarray, number: int, density: float) -> None:
+    """Make the particles of the mask ``where`` (n,) of another material, in place; ``density`` in kg/m3."""
+    particles.material[where] = number
+    particles.mass[where] = particles.volume[where] * density
 
 
 def copy_particles(particles: Particles) -> Particles:
@@ -56,7 +66,7 @@ def copy_particles(particles: Particles) -> Particles:
     return Particles(*(array.copy() for array in particles))
 
 
-@law
+@inlined
 def take_block(particles, start, stop):
     """Return the particles from ``start`` to ``stop`` as views."""
     return Particles(
@@ -73,4 +83,7 @@ def take_block(particles, start, stop):
         particles.plastic_strain[start:stop],
         particles.cohesion[start:stop],
         particles.friction_angle[start:stop],
+        particles.cohesion_residual[start:stop],
+        particles.friction_angle_residual[start:stop],
+        particles.material[start:stop],
     )

@@ -8,7 +8,7 @@ from math import sqrt
 from typing import NamedTuple
 
 
-class Slide(NamedTuple):
+class SlideCriteria(NamedTuple):
     """Displacements since release from which on ground belongs to a slide and is one, and the size of its front."""
 
     displaced: float  # m: a particle displaced farther belongs to the sliding mass
@@ -26,5 +26,5 @@ class Slide(NamedTuple):
         return 0.2 * sqrt(self.failed)
 
 
-PAPER = Slide(displaced=0.1, failed=1.0, front_area=0.25)
+PAPER = SlideCriteria(displaced=0.1, failed=1.0, front_area=0.25)
 """The displacements of Ma, Rezania and Mousavi Nezhad, section 3.2."""

@@ -24,7 +24,9 @@ import numpy as np
 from solver._jit import kernel
 from solver.basis import Stencil, allocate_stencil, evaluate_stencil
 from solver.cells import average, clear
+from solver.materials import update_materials
 from solver.mean_dilation import NO_VOLUME, pool_dilation, pool_pressure, read_pressure, replace_dilation
+from solver.method import Method
 from solver.nonlocal_softening import average_plastic_strain
 from solver.operations import (
     INTERNAL_WORK,
@@ -35,7 +37,6 @@ from solver.operations import (
     remap_momentum,
     remap_velocity,
     solve_momentum,
-    update_material,
     update_velocity,
 )
 from solver.particles import take_block
@@ -46,7 +47,7 @@ BLOCK = 128
 STRESS_UPDATES = {"musl": 0, "usl": 1, "usf": 2}
 USL, USF = STRESS_UPDATES["usl"], STRESS_UPDATES["usf"]
 
-LOCKING = {"none": 0, "cell-average": 1}  # the cure, not the disease: "none" locks
+LOCKING = {"none": 0, "cell-average": 1}
 CELL_AVERAGE = LOCKING["cell-average"]
 
 
@@ -84,6 +85,13 @@ class Scheme(NamedTuple):
     flip_fraction: float  # 1 FLIP, 0 PIC
     damping: float  # local damping: this share of the unbalanced force opposes the motion (in-situ stage only)
     locking: int = LOCKING["none"]  # of LOCKING
+    averages_plastic_strain: bool = False  # over the internal length (``nonlocal_softening``)
+
+
+def scheme_of(method: Method, damping: float = 0.0, averages_plastic_strain: bool = False) -> Scheme:
+    """Return a method as kernels take it; ``damping`` is a share of the unbalanced force."""
+    numbers = STRESS_UPDATES[method.stress_update], LOCKING[method.locking]
+    return Scheme(numbers[0], method.flip_fraction, damping, numbers[1], averages_plastic_strain)
 
 
 @kernel
@@ -117,7 +125,7 @@ def spread_all_with_cell_pressure(particles, grid, work):
 
 
 @kernel
-def begin(particles, grid, work, scheme):
+def spread_first(particles, grid, work, scheme):
     """Operation 1 of the first step."""
     if scheme.locking == CELL_AVERAGE:
         pool_all_pressure(particles, grid)
@@ -151,7 +159,7 @@ def accelerate(particles, grid, work, scheme, gravity, dt):
 
 
 @kernel
-def deform_each(particles, grid, work, soil, scheme, gravity, dt):
+def deform_each(particles, grid, work, laws, scheme, gravity, dt):
     """Operations 5 and 6, and 1 of the next step, in one pass; return whether all are inside."""
     nodal_velocity = grid.velocity if scheme.stress_update == USL else grid.remapped
     clear_state(grid)
@@ -160,7 +168,7 @@ def deform_each(particles, grid, work, soil, scheme, gravity, dt):
         block = take_block(particles, start, stop)
         evaluate_stencil(work.stencil, block.x, block.y, grid)
         gather_increments(work.increment, nodal_velocity, work.stencil, block.x.size, grid.columns, dt)
-        work.ledger[INTERNAL_WORK] += update_material(block, work.increment, soil)
+        work.ledger[INTERNAL_WORK] += update_materials(block, work.increment, laws, dt)
         if scheme.stress_update != USF:
             if not move(block, work.moved_x[start:stop], work.moved_y[start:stop], grid, gravity, work.ledger):
                 return False
@@ -170,7 +178,7 @@ def deform_each(particles, grid, work, soil, scheme, gravity, dt):
 
 
 @kernel
-def deform_cells(particles, grid, work, soil, scheme, gravity, dt):
+def deform_cells(particles, grid, work, laws, scheme, gravity, dt):
     """Do the same with the dilation and the pressure of cells, in three passes; return whether all are inside."""
     nodal_velocity = grid.velocity if scheme.stress_update == USL else grid.remapped
     clear(grid.cell_dilation, grid)
@@ -187,7 +195,7 @@ def deform_cells(particles, grid, work, soil, scheme, gravity, dt):
         block = take_block(particles, start, stop)
         increment = work.increments[start // BLOCK]
         replace_dilation(block, increment, grid)
-        work.ledger[INTERNAL_WORK] += update_material(block, increment, soil)
+        work.ledger[INTERNAL_WORK] += update_materials(block, increment, laws, dt)
         moves = scheme.stress_update != USF
         if moves and not move(block, work.moved_x[start:stop], work.moved_y[start:stop], grid, gravity, work.ledger):
             return False
@@ -197,22 +205,21 @@ def deform_cells(particles, grid, work, soil, scheme, gravity, dt):
 
 
 @kernel
-def deform(particles, grid, work, soil, scheme, gravity, dt):
+def deform(particles, grid, work, laws, scheme, gravity, dt):
     """Operations 5 and 6, and 1 of the next step; return whether all are inside."""
-    is_nonlocal = soil.internal_length > 0.0
-    if is_nonlocal:
+    if scheme.averages_plastic_strain:
         work.plastic_strain[:] = particles.plastic_strain
     if scheme.locking == CELL_AVERAGE:
-        are_all_inside = deform_cells(particles, grid, work, soil, scheme, gravity, dt)
+        are_all_inside = deform_cells(particles, grid, work, laws, scheme, gravity, dt)
     else:
-        are_all_inside = deform_each(particles, grid, work, soil, scheme, gravity, dt)
-    if is_nonlocal and are_all_inside:
+        are_all_inside = deform_each(particles, grid, work, laws, scheme, gravity, dt)
+    if scheme.averages_plastic_strain and are_all_inside:
         average_plastic_strain(particles, grid, work.plastic_strain)
     return are_all_inside
 
 
 @kernel
-def advance(particles, grid, work, soil, scheme, gravity, gravity_rate, dt, steps):
+def advance(particles, grid, work, laws, scheme, gravity, gravity_rate, dt, steps):
     """Take ``steps`` time steps of ``dt`` seconds, in place; return how many were taken.
 
     Fewer than ``steps`` means that a particle left the grid in the next one. Gravity (m/s2, downward) grows by
@@ -220,12 +227,12 @@ def advance(particles, grid, work, soil, scheme, gravity, gravity_rate, dt, step
     """
     if not are_inside(particles.x, particles.y, grid):
         return 0
-    begin(particles, grid, work, scheme)
+    spread_first(particles, grid, work, scheme)
     for step in range(steps):
         g = gravity + gravity_rate * (step + 0.5) * dt
         solve_momentum(grid, g, scheme.damping, dt)
         if not accelerate(particles, grid, work, scheme, g, dt):
             return step
-        if not deform(particles, grid, work, soil, scheme, g, dt):
+        if not deform(particles, grid, work, laws, scheme, g, dt):
             return step
     return steps

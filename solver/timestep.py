@@ -2,9 +2,11 @@
 
 import math
 
+from solver.method import Basis, StressUpdate
+
 # Up to these an elastic body that crosses cells gains less than a tenth of its vibration energy, and one that trembles
 # in place is stable wherever its particles lie, 4, 9 or 16 of them in a cell: the stability atlas, tests/stability.
-LARGEST_COURANT = {
+LARGEST_COURANT: dict[tuple[Basis, StressUpdate], float] = {
     ("gimp", "musl"): 0.9,
     ("gimp", "usf"): 1.1,
     ("gimp", "usl"): 0.4,
@@ -15,21 +17,11 @@ LARGEST_COURANT = {
     ("linear", "usf"): 0.1,
     ("linear", "usl"): 0.0,
 }
-SHORTEST_GIMP, LONGEST_GIMP = 0.125, 0.25  # half lengths over the cell, of 16 and of 4 particles
 
 
-def largest_courant(half_length: float, stress_update: str) -> float:
-    """Return the Courant number up to which a step is stable.
-
-    Parameters
-    ----------
-    half_length : float
-        Of a particle's domain over the cell size (see ``basis``).
-    stress_update : {"musl", "usl", "usf"}
-    """
-    if half_length < SHORTEST_GIMP:
-        return LARGEST_COURANT["linear", stress_update]
-    return LARGEST_COURANT["gimp" if half_length <= LONGEST_GIMP else "bspline", stress_update]
+def largest_courant(basis: Basis, stress_update: StressUpdate) -> float:
+    """Return the Courant number up to which a step is stable; 0 where none is."""
+    return LARGEST_COURANT[basis, stress_update]
 
 
 def stable_step(courant: float, cell_size: float, wave_speed: float, fastest: float) -> float:

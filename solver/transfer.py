@@ -1,15 +1,15 @@
 """Between particles and grid. Each function takes a block of particles and the stencil of their present places."""
 
-from solver._jit import law
+from solver._jit import inlined
 
 
-@law
+@inlined
 def three(values, p):
     """Return the column ``p`` of a stencil array in registers, where stores to the grid cannot touch it."""
     return values[0, p], values[1, p], values[2, p]
 
 
-@law
+@inlined
 def particle_to_grid(particles, stress_xx, stress_yy, stress_xy, stencil, grid):
     """Add mass, momentum and internal force of a block of particles to the nodes.
 
@@ -47,7 +47,7 @@ def particle_to_grid(particles, stress_xx, stress_yy, stress_xy, stencil, grid):
                 grid.force[node, 1] += xy * g_x + yy * g_y
 
 
-@law
+@inlined
 def interpolate(field, stencil, p, columns):
     """Return ``sum_i S_ip field_i`` of a nodal vector field ``(nodes, 2)``."""
     x = 0.0
@@ -61,7 +61,7 @@ def interpolate(field, stencil, p, columns):
     return x, y
 
 
-@law
+@inlined
 def gradient(field, stencil, p, columns):
     """Return ``sum_i field_i (x) grad S_ip`` of a nodal vector field ``(nodes, 2)``, as (xx, xy, yx, yy)."""
     xx = 0.0
@@ -80,7 +80,7 @@ def gradient(field, stencil, p, columns):
     return xx, xy, yx, yy
 
 
-@law
+@inlined
 def spread_mass(particles, stencil, grid):
     """Add ``S_ip m_p`` to the nodes."""
     for p in range(particles.x.size):
@@ -91,7 +91,7 @@ def spread_mass(particles, stencil, grid):
                 grid.mass[first + j * grid.columns + i] += sx[i] * sy[j] * particles.mass[p]
 
 
-@law
+@inlined
 def spread_momentum(field, momentum_x, momentum_y, stencil, p, columns):
     """Add ``S_ip m_p v_p`` to a nodal vector field ``(nodes, 2)``."""
     first = stencil.node[p]

@@ -18,14 +18,10 @@ from campaign.storage.record_store import RecordStore
 from campaign.storage.vtkhdf import ParticleFile
 from campaign.terminal import say
 from solver.march import March
-from solver.mohr_coulomb import Soil
-from solver.particles import Particles
-from solver.softening import remaining_share
+from solver.materials import mobilised_strength
 
 MACHINE_TIME = ("wall_time",)
 """Quantities of a record that no repetition can reproduce."""
-
-_remaining_share = np.vectorize(remaining_share, otypes=[float])
 
 
 def replay(directory: Path, realization: int) -> Path:
@@ -76,10 +72,10 @@ def state(march: March) -> tuple[Array, dict[str, Array]]:
     The elevation is the second coordinate, as ParaView looks along the third. Vectors have three components, and the
     symmetric stress has six: xx, yy, zz, xy, yz, xz.
     """
-    now, start, soil = march.particles, march.start, march.model.soil
+    now, start = march.particles, march.start
     zero = np.zeros_like(now.x)
     points = np.column_stack([now.x, now.y, zero])
-    cohesion, friction_angle = mobilised_strength(now, soil)
+    cohesion, friction_angle = mobilised_strength(now, march.model.materials)
     return points, {
         "displacement": points - np.column_stack([start.x, start.y, zero]),
         "velocity": np.column_stack([now.velocity_x, now.velocity_y, zero]),
@@ -89,15 +85,6 @@ def state(march: March) -> tuple[Array, dict[str, Array]]:
         "friction_angle": friction_angle,
         "volume": now.volume,
     }
-
-
-def mobilised_strength(particles: Particles, soil: Soil) -> tuple[Array, Array]:
-    """Return what softening has left of cohesion (Pa) and friction angle (rad), each (n,)."""
-    share = _remaining_share(particles.plastic_strain, soil.softening_rate, soil.softening_is_linear)
-    return (
-        soil.cohesion_residual + (particles.cohesion - soil.cohesion_residual) * share,
-        soil.friction_residual + (particles.friction_angle - soil.friction_residual) * share,
-    )
 
 
 def comparison(record: Record, kept: Record | None) -> str:

@@ -6,9 +6,8 @@ import numpy as np
 
 from campaign.results.results import Results
 from campaign.scene import Scene
+from campaign.simulation.solver_model import softening_rate
 from campaign.statistics.intervals import Interval, failure_bounds, mean_interval, proportion_interval, std_interval
-from solver.basis import half_length_in_cells
-from solver.internal_length import coarse_rate_factor
 
 NOT_ESTIMATED = "not estimated"
 
@@ -111,17 +110,16 @@ def _energy(results: Results) -> Row:
 
 
 def _softening(scene: Scene) -> str:
-    softening, cell = scene.soil.softening, scene.numerics.cell
-    if softening.law == "none":
+    softening, rate = scene.soil.softening, softening_rate(scene)
+    if softening.law == "none" or softening.rate is None:
         return "none"
     if softening.internal_length is not None:
         average = f"{softening.law} with plastic strain averaged over {softening.internal_length:g} m"
-        half_length = half_length_in_cells(scene.numerics.basis, scene.numerics.particles_per_cell)
-        factor = coarse_rate_factor(softening.internal_length, cell, half_length)
+        factor = rate / softening.rate
         coarse = f", times {factor:.2g} because bands of these cells are thicker" if factor > 1.0 else ""
         return f"{average}, rate {softening.rate:g}{coarse}"
     return (
-        f"{softening.law} with plastic strain, rate {softening.rate_at(cell):g} at this cell, in proportion to its "
+        f"{softening.law} with plastic strain, rate {rate:g} at this cell, in proportion to its "
         f"size ({softening.rate:g} at {softening.reference_cell:g} m)"
     )
 

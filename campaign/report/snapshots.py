@@ -73,5 +73,5 @@ def snapshot(march: March) -> Snapshot:
     """Return what a figure shows of a march."""
     now, start = march.particles, march.start
     moved = displacement(now, start)
-    front = runout(now, start, march.model.surface, march.model.slide)
+    front = runout(now, start, march.model.surface, march.model.criteria)
     return Snapshot(march.time, now.x.copy(), now.y.copy(), moved, now.plastic_strain.copy(), front)

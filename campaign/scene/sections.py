@@ -21,6 +21,7 @@ from campaign.scene.constraints import (
     must,
 )
 from campaign.scene.units import Angle, Pressure, UnitWeight
+from solver.method import Basis, Locking, StressUpdate
 
 
 class Section(BaseModel):
@@ -71,16 +72,11 @@ class Softening(Section):
     reference_cell: PositiveLength | None = None
     internal_length: PositiveLength | None = None
 
-    def rate_at(self, cell: float) -> float:
-        """Return the softening rate for cells of `cell` m: local softening needs it in proportion to the cell."""
-        if self.law == "none" or self.rate is None:
-            return 0.0
-        return self.rate if self.reference_cell is None else self.rate * cell / self.reference_cell
-
 
 class Soil(Section):
     """Unit weight in N/m3, Young's modulus in Pa, dilation angle in rad, and strength."""
 
+    law: Literal["mohr-coulomb"] = "mohr-coulomb"
     unit_weight: Annotated[UnitWeight, POSITIVE]
     young_modulus: PositivePressure
     poisson_ratio: Annotated[float, must("be at least 0 and below 0.5", lambda ratio: 0.0 <= ratio < 0.5)]
@@ -109,11 +105,11 @@ class Numerics(Section):
 
     cell: PositiveLength
     particles_per_cell: Annotated[int, must("be 1, 4, 9 or 16", lambda number: number in (1, 4, 9, 16))] = 4
-    basis: Literal["gimp", "linear", "bspline"] = "gimp"
-    stress_update: Literal["musl", "usl", "usf"] = "musl"
+    basis: Basis = "gimp"
+    stress_update: StressUpdate = "musl"
     courant: Annotated[float, must("be above 0 and at most 1.5, for instance 0.6", lambda c: 0.0 < c <= 1.5)] = 0.6
     flip: Fraction = 1.0
-    locking: Literal["none", "cell-average"] = "cell-average"
+    locking: Locking = "cell-average"
     gravity: Literal["release", "ramp"] = "release"
     ramp_time: PositiveTime = 2.0
     end_time: PositiveTime

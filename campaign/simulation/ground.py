@@ -16,7 +16,7 @@ from campaign.seeds import BASELINE
 from campaign.simulation.quantities import QUANTITIES
 from campaign.simulation.realization import never, nothing, simulate
 from campaign.simulation.solver_model import Array, column_edges, model_of, output_times
-from solver.filling import fill_ground
+from solver.filling import ground_of
 from solver.in_situ import NotSettledError, in_situ_state
 from solver.march import March
 from solver.model import Model
@@ -131,10 +131,12 @@ class Ground:
         """Return the in-situ state with the peak strengths of a realization; nowhere is peak below residual."""
         within = np.minimum(self.lattice.x, self.model.surface.width)  # a wall may stand beyond by part of a cell
         cohesion, friction_angle = self.draw(realization).at(within, self.lattice.y)
-        soil = self.model.soil
+        soil = self.scene.soil
         return self.in_situ._replace(
-            cohesion=np.maximum(cohesion, soil.cohesion_residual),
-            friction_angle=np.maximum(friction_angle, soil.friction_residual),
+            cohesion=np.maximum(cohesion, soil.cohesion.residual),
+            friction_angle=np.maximum(friction_angle, soil.friction_angle.residual),
+            cohesion_residual=np.full_like(cohesion, soil.cohesion.residual),
+            friction_angle_residual=np.full_like(friction_angle, soil.friction_angle.residual),
         )
 
 
@@ -155,7 +157,7 @@ def prepare(scene: Scene, directory: Path | None = None) -> Ground:
         If the sampler cannot draw the scene's field.
     """
     model = model_of(scene)
-    lattice = fill_ground(model.surface, model.cell_size, model.particles_per_cell, model.density)
+    lattice = ground_of(model)
     in_situ = _loaded(model) if scene.numerics.gravity == "release" else copy_particles(lattice)
     return Ground(scene, model, lattice, in_situ, _sampler(scene, model, directory))
 

@@ -14,7 +14,7 @@ from campaign.record import Average, Quantity, Value, missing_values, plain, uni
 from campaign.simulation.detachment import detached_volume
 from campaign.simulation.solver_model import Array, column_edges
 from solver import observables
-from solver.march import History
+from solver.march import MarchHistory
 from solver.model import Model
 from solver.particles import Particles
 
@@ -28,7 +28,7 @@ class Ending:
     model : solver.model.Model
     start : Particles
         The in-situ state with the peak strengths of the realization.
-    history : solver.march.History
+    history : solver.march.MarchHistory
         The series in time and the particles at the end.
     begin : float
         When the simulation began, on the clock of `time.perf_counter` [s].
@@ -36,7 +36,7 @@ class Ending:
 
     model: Model
     start: Particles
-    history: History
+    history: MarchHistory
     begin: float
 
     @property
@@ -52,7 +52,7 @@ class Ending:
     @property
     def half_spacing(self) -> float:
         """Half the distance between particles on their lattice [m]."""
-        return float(0.5 * self.model.cell_size / np.sqrt(self.model.particles_per_cell))
+        return 0.5 * self.model.particle_spacing
 
     @cached_property
     def edges(self) -> Array:
@@ -113,13 +113,13 @@ QUANTITIES: dict[str, Measured] = {
         (),
         "m",
         "final advance of the front beyond which slide.front_area of slid material lies",
-        compute=lambda end: observables.runout_mass(end.particles, end.start, end.model.surface, end.model.slide),
+        compute=lambda end: observables.runout_mass(end.particles, end.start, end.model.surface, end.model.criteria),
     ),
     "sliding_volume": Measured(
         (),
         "m3/m",
         "volume displaced farther than slide.displaced, per metre run",
-        compute=lambda end: observables.sliding_volume(end.particles, end.start, end.model.slide),
+        compute=lambda end: observables.sliding_volume(end.particles, end.start, end.model.criteria),
     ),
     "detached_volume": Measured(
         (),
@@ -146,7 +146,7 @@ QUANTITIES: dict[str, Measured] = {
         "1 where a particle is displaced farther than slide.displaced",
         "u1",
         DISPLACED,
-        compute=lambda end: observables.is_displaced(end.particles, end.start, end.model.slide),
+        compute=lambda end: observables.is_displaced(end.particles, end.start, end.model.criteria),
     ),
     "wall_time": Measured(
         (),

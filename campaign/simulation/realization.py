@@ -8,10 +8,10 @@ from campaign.simulation.contract import Interrupted
 from campaign.simulation.detachment import CAME_APART
 from campaign.simulation.quantities import UNITS, Ending, measure
 from campaign.simulation.solver_model import Array
-from solver.march import History, March, Outcome, run
+from solver.march import March, MarchEnd, MarchHistory, march_to_rest
 from solver.model import Model
 from solver.particles import Particles
-from solver.slide import Slide
+from solver.slide import SlideCriteria
 
 
 def never() -> bool:
@@ -59,18 +59,18 @@ def simulate(
             raise Interrupted
         observe(march)
 
-    history = run(model, start, times, watch)
+    history = march_to_rest(model, start, times, watch)
     values = measure(Ending(model, start, history, begin))
     reason = CAME_APART if values["detached_volume"] > 0.0 else history.reason
-    return Record(realization, status_of(history, model.slide), reason, values, UNITS)
+    return Record(realization, status_of(history, model.criteria), reason, values, UNITS)
 
 
-def status_of(history: History, slide: Slide) -> Status:
+def status_of(history: MarchHistory, criteria: SlideCriteria) -> Status:
     """Return how a march ended in the terms of the dataset."""
-    if history.outcome is Outcome.DIVERGED:
+    if history.end is MarchEnd.DIVERGED:
         return Status.diverged
-    if history.outcome is Outcome.LEFT_DOMAIN:
+    if history.end is MarchEnd.LEFT_DOMAIN:
         return Status.left_domain
-    if history.max_displacement[-1] <= slide.failed:
+    if history.max_displacement[-1] <= criteria.failed:
         return Status.no_slide
-    return Status.slid if history.outcome is Outcome.AT_REST else Status.not_settled
+    return Status.slid if history.end is MarchEnd.AT_REST else Status.not_settled

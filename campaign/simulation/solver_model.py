@@ -8,42 +8,49 @@ from campaign.scene.scene import Scene
 from solver.basis import half_length_in_cells
 from solver.constants import STANDARD_GRAVITY
 from solver.grid import whole_cells
-from solver.internal_length import coarse_rate_factor
-from solver.model import Model, make_soil
-from solver.slide import Slide
-from solver.step import LOCKING, STRESS_UPDATES, Scheme
+from solver.internal_length import rate_on_cells
+from solver.laws.registry import Constants, make_law
+from solver.materials import Material
+from solver.method import Method
+from solver.model import Model
+from solver.slide import SlideCriteria
+from solver.softening import Softening
 
 Array = NDArray[np.float64]
 
 
 def model_of(scene: Scene) -> Model:
     """Return the solver's view of a scene."""
-    soil, numerics = scene.soil, scene.numerics
-    half_length = half_length_in_cells(numerics.basis, numerics.particles_per_cell)
-    internal_length = soil.softening.internal_length or 0.0
-    rate = soil.softening.rate_at(numerics.cell)
+    numerics, slide = scene.numerics, scene.slide
     return Model(
         surface=surface_of(scene.geometry),
-        density=soil.unit_weight / STANDARD_GRAVITY,
-        poisson_ratio=soil.poisson_ratio,
-        soil=make_soil(
-            soil.young_modulus,
-            soil.poisson_ratio,
-            soil.dilation_angle,
-            soil.cohesion.residual,
-            soil.friction_angle.residual,
-            rate * coarse_rate_factor(internal_length, numerics.cell, half_length),
-            soil.softening.law == "linear",
-            internal_length,
-        ),
+        materials=(material_of(scene),),
         cell_size=numerics.cell,
         particles_per_cell=numerics.particles_per_cell,
-        half_length=half_length,
-        scheme=Scheme(STRESS_UPDATES[numerics.stress_update], numerics.flip, 0.0, LOCKING[numerics.locking]),
         courant=numerics.courant,
+        method=Method(numerics.basis, numerics.stress_update, numerics.locking, numerics.flip),
+        internal_length=scene.soil.softening.internal_length or 0.0,
         ramp_time=numerics.ramp_time if numerics.gravity == "ramp" else 0.0,
-        slide=Slide(scene.slide.displaced, scene.slide.failed, scene.slide.front_area),
+        criteria=SlideCriteria(slide.displaced, slide.failed, slide.front_area),
     )
+
+
+def material_of(scene: Scene) -> Material:
+    """Return what the soil of a scene is made of."""
+    soil = scene.soil
+    softening = Softening(softening_rate(scene), soil.softening.law == "linear")
+    constants = Constants(soil.young_modulus, soil.poisson_ratio, soil.dilation_angle, softening)
+    return Material(soil.unit_weight / STANDARD_GRAVITY, soil.poisson_ratio, make_law(soil.law, constants))
+
+
+def softening_rate(scene: Scene) -> float:
+    """Return the rate, per unit plastic strain, at which the strength of a scene softens on its cells."""
+    softening, numerics = scene.soil.softening, scene.numerics
+    if softening.law == "none" or softening.rate is None:
+        return 0.0
+    half_length = half_length_in_cells(numerics.basis, numerics.particles_per_cell)
+    internal_length = softening.internal_length or 0.0
+    return rate_on_cells(softening.rate, numerics.cell, half_length, internal_length, softening.reference_cell)
 
 
 def output_times(end_time: float, interval: float) -> Array:

@@ -30,7 +30,7 @@ def particle_steps_per_second() -> list[float]:
     for _ in range(RUNS):
         begin = time.perf_counter()
         taken = advance(
-            march.particles, march.grid, march.work, model.soil, model.scheme, STANDARD_GRAVITY, 0.0, dt, STEPS
+            march.particles, march.grid, march.work, model.laws, model.scheme, STANDARD_GRAVITY, 0.0, dt, STEPS
         )
         speeds.append(taken * ground.n_particles / (time.perf_counter() - begin))
     return speeds

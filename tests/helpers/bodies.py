@@ -29,7 +29,7 @@ def energy_gained(body, grid, soil, scheme, dt, steps):
     """March in place; return the energy that the scheme created, over what the body brought (inf if it broke off)."""
     work, brought = allocate_workspace(body.x.size), observables.kinetic_energy(body)
     with np.errstate(all="ignore"):
-        taken = advance(body, grid, work, soil, scheme, 0.0, 0.0, dt, steps)
+        taken = advance(body, grid, work, (soil,), scheme, 0.0, 0.0, dt, steps)
         energy = observables.kinetic_energy(body) + work.ledger[INTERNAL_WORK]
     gained = energy / brought - 1.0
     return gained if taken == steps and np.isfinite(gained) else np.inf

@@ -7,8 +7,10 @@ import numpy as np
 from solver._jit import kernel
 from solver.basis import evaluate_stencil
 from solver.grid import NO_SMOOTHING, allocate_grid
-from solver.model import make_soil
+from solver.laws.mohr_coulomb import mohr_coulomb
+from solver.laws.registry import Constants
 from solver.operations import solve_momentum
+from solver.softening import NO_SOFTENING
 from solver.step import BLOCK, STRESS_UPDATES, Scheme, accelerate, allocate_workspace, deform, spread_all
 from solver.transfer import spread_momentum
 
@@ -29,7 +31,7 @@ class Row(NamedTuple):
 
 def elastic_soil(young_modulus, poisson_ratio):
     """Return a soil whose particles (as allocated, unyielding) are elastic."""
-    return make_soil(young_modulus, poisson_ratio, 0.0, 0.0, 0.0, 0.0, False)
+    return mohr_coulomb(Constants(young_modulus, poisson_ratio, 0.0, NO_SOFTENING))
 
 
 def observed_orders(errors):
@@ -114,5 +116,5 @@ def march(particles, grid, soil, scheme, dt, steps, body_force, observe):
         add_body_force(particles, grid, work, *body_force(step * dt))
         solve_momentum(grid, 0.0, scheme.damping, dt)
         assert accelerate(particles, grid, work, scheme, 0.0, dt)
-        assert deform(particles, grid, work, soil, scheme, 0.0, dt)
+        assert deform(particles, grid, work, (soil,), scheme, 0.0, dt)
         observe((step + 1) * dt)

@@ -45,7 +45,7 @@ def pic_decay(basis, blend, offset, waves=4, length=32, steps=400):
     grid = grid_without_walls(12.0, waves * length + 4.0, 1.0, BASES[basis])
     grid.free_y[:] = 0.0
     scheme = MUSL._replace(flip_fraction=1.0 - blend)
-    advance(body, grid, allocate_workspace(x.size), elastic_soil(1e-12, 0.0), scheme, 0.0, 0.0, 1e-3, steps)
+    advance(body, grid, allocate_workspace(x.size), (elastic_soil(1e-12, 0.0),), scheme, 0.0, 0.0, 1e-3, steps)
     inner = np.abs(y - waves * length / 2) < length
     left = (body.velocity_x[inner] @ wave[inner]) / (1e-6 * wave[inner] @ wave[inner])
     return -np.log(left) / (blend * (2.0 * np.pi / length) ** 2 * steps)

@@ -7,16 +7,22 @@ import numpy as np
 from solver._jit import kernel
 from solver.hooke import elastic_increment
 from solver.kinematics import rotate_stress
-from solver.model import make_soil
-from solver.mohr_coulomb import mohr_coulomb, update_stress
-from solver.softening import exp_decay, remaining_share, sine
+from solver.laws import mohr_coulomb
+from solver.laws.registry import Constants, update_stress
+from solver.softening import Softening, Strength, exp_decay, sine
 
 COHESION = 20e3  # Pa
+RESIDUAL_COHESION, RESIDUAL_FRICTION_ANGLE = 10e3, np.radians(5.0)
 
 
 def soil_of(psi, rate=0.0, is_linear=False):
-    """Return a soil of the dilation angle ``psi`` (degrees) that softens to 10 kPa and 5 degrees."""
-    return make_soil(70e6, 0.35, np.radians(psi), 10e3, np.radians(5.0), rate, is_linear)
+    """Return Mohr-Coulomb soil of the dilation angle ``psi`` (degrees)."""
+    return mohr_coulomb.mohr_coulomb(Constants(70e6, 0.35, np.radians(psi), Softening(rate, is_linear)))
+
+
+def strength_of(cohesion, friction_angle):
+    """Return a strength that softens to 10 kPa and 5 degrees."""
+    return Strength(cohesion, friction_angle, RESIDUAL_COHESION, RESIDUAL_FRICTION_ANGLE)
 
 
 def random_trials(n, seed, cohesion=COHESION):
@@ -30,7 +36,7 @@ def random_trials(n, seed, cohesion=COHESION):
 @kernel
 def _fill_mohr_coulomb(xx, yy, zz, xy, c_cos_phi, sin_phi, soil, result):
     for p in range(xx.size):
-        result[:, p] = mohr_coulomb(xx[p], yy[p], zz[p], xy[p], c_cos_phi[p], sin_phi[p], soil)
+        result[:, p] = mohr_coulomb.return_stress((xx[p], yy[p], zz[p], xy[p]), c_cos_phi[p], sin_phi[p], soil)
 
 
 def return_stress(stress, cohesion, friction_angle, soil):
@@ -43,13 +49,13 @@ def return_stress(stress, cohesion, friction_angle, soil):
 
 
 @kernel
-def follow(stress, strain, cohesion, friction_angle, soil, history):
+def follow(stress, strain, strength, law, dt, history):
     """March ``stress`` (4,) along strain increments (n, 3), order xx, yy, xy; fill ``history`` (n, 5)."""
     xx, yy, zz, xy = stress[0], stress[1], stress[2], stress[3]
     plastic_strain = 0.0
     for k in range(strain.shape[0]):
         xx, yy, zz, xy, plastic_strain = update_stress(
-            xx, yy, zz, xy, strain[k, 0], strain[k, 1], strain[k, 2], plastic_strain, cohesion, friction_angle, soil
+            law, (xx, yy, zz, xy), (strain[k, 0], strain[k, 1], strain[k, 2]), plastic_strain, strength, dt
         )
         history[k] = xx, yy, zz, xy, plastic_strain
 
@@ -73,12 +79,6 @@ def evaluate_exp_decay(x, result):
 def evaluate_sine(x, result):
     for p in range(x.size):
         result[p] = sine(x[p])
-
-
-@kernel
-def share_left(plastic_strain, rate, is_linear, result):
-    for p in range(plastic_strain.size):
-        result[p] = remaining_share(plastic_strain[p], rate, is_linear)
 
 
 @kernel

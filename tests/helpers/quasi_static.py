@@ -11,13 +11,17 @@ import numpy as np
 from solver import observables
 from solver._jit import kernel
 from solver.constants import STANDARD_GRAVITY
-from solver.filling import fill_ground
+from solver.filling import ground_of
 from solver.grid import PADDING, SMALLEST_MASS
 from solver.in_situ import LOCAL_DAMPING, in_situ_state, unbalanced_share
-from solver.model import Model, make_soil
+from solver.laws.registry import Constants, make_law
+from solver.materials import Material
+from solver.method import Method
+from solver.model import Model
 from solver.operations import solve_momentum
 from solver.particles import copy_particles
-from solver.step import LOCKING, STRESS_UPDATES, Scheme, accelerate, advance, allocate_workspace, begin, deform
+from solver.softening import NO_SOFTENING
+from solver.step import accelerate, advance, allocate_workspace, deform, scheme_of, spread_first
 from solver.surface import Surface
 from solver.timestep import stable_step
 
@@ -30,20 +34,22 @@ MOST_LOOKS = 300
 STEP_OF_STRENGTH = 1.01
 
 
-def quasi_static_model(surface, cell_size, unit_weight, locking, young_modulus=YOUNG_MODULUS):
-    """Return a damped uGIMP model, four particles a cell, without softening."""
+def quasi_static_model(surface, cell_size, unit_weight, locking, young_modulus=YOUNG_MODULUS, law="mohr-coulomb"):
+    """Return a uGIMP model, four particles a cell, without softening."""
+    constants = Constants(young_modulus, POISSON_RATIO, 0.0, NO_SOFTENING)
     return Model(
         surface=surface,
-        density=unit_weight / STANDARD_GRAVITY,
-        poisson_ratio=POISSON_RATIO,
-        soil=make_soil(young_modulus, POISSON_RATIO, 0.0, 0.0, 0.0, 0.0, False),
+        materials=(Material(unit_weight / STANDARD_GRAVITY, POISSON_RATIO, make_law(law, constants)),),
         cell_size=cell_size,
         particles_per_cell=4,
-        half_length=0.25,
-        scheme=Scheme(STRESS_UPDATES["musl"], 1.0, LOCAL_DAMPING, LOCKING[locking]),
+        method=Method(locking=locking),
         courant=COURANT,
-        ramp_time=0.0,
     )
+
+
+def damped(model):
+    """Return the scheme of a model with local damping."""
+    return scheme_of(model.method, damping=LOCAL_DAMPING)
 
 
 @kernel
@@ -61,20 +67,20 @@ def prescribe(grid, footing, velocity, dt):
 
 
 @kernel
-def push(particles, grid, work, soil, scheme, footing, velocity, dt, steps):
+def push(particles, grid, work, laws, scheme, footing, velocity, dt, steps):
     """Push a rough rigid footing into weightless ground; return the mean force in N/m."""
     force = 0.0
-    begin(particles, grid, work, scheme)
+    spread_first(particles, grid, work, scheme)
     for _ in range(steps):
         solve_momentum(grid, 0.0, scheme.damping, dt)
         force += prescribe(grid, footing, velocity, dt)
         accelerate(particles, grid, work, scheme, 0.0, dt)
         grid.remapped[footing] = grid.velocity[footing]
-        deform(particles, grid, work, soil, scheme, 0.0, dt)
+        deform(particles, grid, work, laws, scheme, 0.0, dt)
     return force / steps
 
 
-def bearing_pressure(cells, locking, settlement=0.003, samples=40, steps=500):
+def bearing_pressure(cells, locking, settlement=0.003, samples=40, steps=500, law="mohr-coulomb"):
     """Return pressure over cohesion against settlement, for half a footing ``cells`` cells wide on Tresca ground.
 
     The settlement is in widths, with ``E = 10^4 c``. The velocity of the ground falls to zero in the cell beside the
@@ -84,8 +90,8 @@ def bearing_pressure(cells, locking, settlement=0.003, samples=40, steps=500):
     cohesion, half_width, depth = 1e4, 1.0, 2.0
     cell = half_width / cells
     ground = Surface(np.array([0.0, 4.0]), np.array([depth, depth]))
-    model = quasi_static_model(ground, cell, 20e3, locking, young_modulus=1e4 * cohesion)
-    particles = fill_ground(ground, cell, 4, model.density)
+    model = quasi_static_model(ground, cell, 20e3, locking, young_modulus=1e4 * cohesion, law=law)
+    particles = ground_of(model)
     particles.cohesion[:] = cohesion
     grid, work = model.allocate_grid(), allocate_workspace(particles.x.size)
     row = round(depth / cell) + PADDING
@@ -93,9 +99,8 @@ def bearing_pressure(cells, locking, settlement=0.003, samples=40, steps=500):
     footing = np.concatenate([footing, footing + grid.columns])  # and the nodes above, which a heaving particle reaches
     dt = stable_step(COURANT, cell, model.wave_speed, 0.0)
     velocity = 2.0 * half_width * settlement / (samples * steps * dt)
-    forces = [
-        push(particles, grid, work, model.soil, model.scheme, footing, velocity, dt, steps) for _ in range(samples)
-    ]
+    scheme = damped(model)
+    forces = [push(particles, grid, work, model.laws, scheme, footing, velocity, dt, steps) for _ in range(samples)]
     return np.array(forces) / (cohesion * (half_width + 0.5 * cell))
 
 
@@ -103,10 +108,10 @@ def comes_to_rest(particles, grid, work, model):
     """Return whether the unbalanced force dies before the ground has moved twice ``gamma H^2 / E``."""
     before = copy_particles(particles)
     height = model.surface.top - model.surface.y[-1]
-    far = 2.0 * model.density * STANDARD_GRAVITY * height**2 / YOUNG_MODULUS
+    far = 2.0 * model.materials[0].density * STANDARD_GRAVITY * height**2 / YOUNG_MODULUS
     dt = stable_step(COURANT, model.cell_size, model.wave_speed, 0.0)
     for look in range(MOST_LOOKS):
-        advance(particles, grid, work, model.soil, model.scheme, STANDARD_GRAVITY, 0.0, dt, STEPS)
+        advance(particles, grid, work, model.laws, damped(model), STANDARD_GRAVITY, 0.0, dt, STEPS)
         if observables.displacement(particles, before).max() > far:
             return False
         if look > 0 and unbalanced_share(grid, STANDARD_GRAVITY) < AT_REST:

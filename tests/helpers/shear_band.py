@@ -14,21 +14,29 @@ import numpy as np
 from driver import UGIMP, grid_without_walls
 
 from solver.elastic import p_wave_speed
-from solver.internal_length import coarse_rate_factor, smoothing_weights
-from solver.model import make_soil
-from solver.step import LOCKING, STRESS_UPDATES, Scheme
+from solver.internal_length import rate_on_cells, smoothing_weights
+from solver.laws.mohr_coulomb import mohr_coulomb
+from solver.laws.registry import Constants
+from solver.method import Method
+from solver.softening import Softening
+from solver.step import scheme_of
 
 PEAK, WEAK_SHARE, WEAK_WIDTH = 20e3, 0.95, 1.0  # Pa, 1, m
 YOUNG_MODULUS, POISSON_RATIO, DENSITY = 2e6, 0.35, 2000.0
 DRIVE = 0.05  # m/s
 COURANT, DAMPING = 0.6, 0.7
-MUSL = Scheme(STRESS_UPDATES["musl"], 1.0, DAMPING, LOCKING["cell-average"])
+METHOD = Method(locking="cell-average")
 
 
-def soil_on_cells(cell, rate, internal_length, residual):
+def soil_on_cells(cell, rate, internal_length):
     """Return the soil, with the rate that its softening has on cells of ``cell`` m."""
-    rate_on_cells = rate * coarse_rate_factor(internal_length, cell, UGIMP)
-    return make_soil(YOUNG_MODULUS, POISSON_RATIO, 0.0, residual, 0.0, rate_on_cells, False, internal_length)
+    softening = Softening(rate_on_cells(rate, cell, UGIMP, internal_length), is_linear=False)
+    return mohr_coulomb(Constants(YOUNG_MODULUS, POISSON_RATIO, 0.0, softening))
+
+
+def damped_scheme(internal_length):
+    """Return the damped scheme; plastic strain is averaged if there is an internal length (m)."""
+    return scheme_of(METHOD, DAMPING, averages_plastic_strain=internal_length > 0.0)
 
 
 def smoothing_grid(width, height, cell, internal_length):

@@ -11,12 +11,12 @@ from driver import lattice
 from shear_band import (
     DENSITY,
     DRIVE,
-    MUSL,
     PEAK,
     POISSON_RATIO,
     WEAK_SHARE,
     WEAK_WIDTH,
     YOUNG_MODULUS,
+    damped_scheme,
     in_samples,
     smoothing_grid,
     soil_on_cells,
@@ -26,28 +26,28 @@ from solver._jit import kernel
 from solver.elastic import shear_modulus
 from solver.operations import INTERNAL_WORK, solve_momentum
 from solver.particles import allocate_particles
-from solver.step import accelerate, allocate_workspace, begin, deform
+from solver.step import accelerate, allocate_workspace, deform, spread_first
 
 RADIUS, HELD, DRIVEN, RIM, SIZE = 6.0, 4.0, 8.0, 2.0, 22.0  # m: of the band, the rigid parts, the rims, the grid
 SLIP, SAMPLES = 0.8, 40  # m at RADIUS, where the drive is DRIVE, looks on the way
 
 
 @kernel
-def turn(particles, grid, work, soil, is_held, is_driven, velocity, dt, steps):
+def turn(particles, grid, work, laws, scheme, is_held, is_driven, velocity, dt, steps):
     """Hold some nodes and drive others at ``velocity`` (n, 2); return the work of the stresses in J/m."""
     work.ledger[INTERNAL_WORK] = 0.0
-    begin(particles, grid, work, MUSL)
+    spread_first(particles, grid, work, scheme)
     for _ in range(steps):
-        solve_momentum(grid, 0.0, MUSL.damping, dt)
+        solve_momentum(grid, 0.0, scheme.damping, dt)
         for i in range(grid.mass.size):
             if is_held[i] or is_driven[i]:
                 grid.acceleration[i] = 0.0
                 grid.velocity[i] = velocity[i]
-        accelerate(particles, grid, work, MUSL, 0.0, dt)
+        accelerate(particles, grid, work, scheme, 0.0, dt)
         for i in range(grid.mass.size):
             if is_held[i] or is_driven[i]:
                 grid.remapped[i] = velocity[i]
-        deform(particles, grid, work, soil, MUSL, 0.0, dt)
+        deform(particles, grid, work, laws, scheme, 0.0, dt)
     return work.ledger[INTERNAL_WORK]
 
 
@@ -84,12 +84,12 @@ def walls(grid):
 
 def shear_force(cell, rate, internal_length):
     """Return displacement in m and mean shear stress in Pa at ``RADIUS``, from the work of the stresses (SAMPLES,)."""
-    soil = soil_on_cells(cell, rate, internal_length, residual=0.0)
+    soil, scheme = soil_on_cells(cell, rate, internal_length), damped_scheme(internal_length)
     grid = smoothing_grid(SIZE, SIZE, cell, internal_length)
     particles = ring(cell)
     work = allocate_workspace(particles.x.size)
     nodes = walls(grid)
     displacement, works = in_samples(
-        lambda dt, steps: turn(particles, grid, work, soil, *nodes, dt, steps), soil, cell, SLIP, SAMPLES
+        lambda dt, steps: turn(particles, grid, work, (soil,), scheme, *nodes, dt, steps), soil, cell, SLIP, SAMPLES
     )
     return displacement, works / (SLIP / SAMPLES * 2.0 * math.pi * RADIUS)

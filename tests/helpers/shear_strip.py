@@ -9,30 +9,30 @@ from driver import lattice
 from shear_band import (
     DENSITY,
     DRIVE,
-    MUSL,
     PEAK,
     POISSON_RATIO,
     WEAK_SHARE,
     WEAK_WIDTH,
     YOUNG_MODULUS,
+    damped_scheme,
     in_samples,
     smoothing_grid,
     soil_on_cells,
 )
 
-from solver._jit import kernel, law
+from solver._jit import inlined, kernel
 from solver.elastic import shear_modulus
 from solver.grid import PADDING, SMALLEST_MASS
 from solver.operations import INTERNAL_WORK, solve_momentum
 from solver.particles import allocate_particles
-from solver.step import accelerate, allocate_workspace, begin, deform
+from solver.step import accelerate, allocate_workspace, deform, spread_first
 
 HEIGHT, RIM, COARSE_CELL, WIDTH_IN_CELLS = 10.0, 1.0, 0.5, 2  # m, m, m: rigid blocks at both ends are the walls
 RESIDUAL = 10e3  # Pa
 SLIP, SAMPLES = 1.0, 66  # m, of the top at the end; looks on the way
 
 
-@law
+@inlined
 def share_in_rows(sums, mass, columns):
     """Give the nodes of a row their share by mass of its horizontal sum, and nothing vertical."""
     for start in range(0, mass.size, columns):
@@ -43,7 +43,7 @@ def share_in_rows(sums, mass, columns):
         sums[row, 1] = 0.0
 
 
-@law
+@inlined
 def hold(vectors, grid, base, top, value):
     """Hold the rows up to ``base`` at rest and those from ``top`` at ``value``."""
     vectors[: (base + 1) * grid.columns] = 0.0
@@ -52,11 +52,11 @@ def hold(vectors, grid, base, top, value):
 
 
 @kernel
-def shear(particles, grid, work, soil, scheme, base, top, drive, dt, steps):
+def shear(particles, grid, work, laws, scheme, base, top, drive, dt, steps):
     """Drive the nodes from row ``top`` up at ``drive`` m/s, hold those up to row ``base``; return the work in J/m."""
     work.ledger[INTERNAL_WORK] = 0.0
     width = grid.width
-    begin(particles, grid, work, scheme)
+    spread_first(particles, grid, work, scheme)
     for _ in range(steps):
         share_in_rows(grid.momentum, grid.mass, grid.columns)
         share_in_rows(grid.force, grid.mass, grid.columns)
@@ -69,7 +69,7 @@ def shear(particles, grid, work, soil, scheme, base, top, drive, dt, steps):
         grid.remapped[:, 0] /= np.maximum(grid.mass, SMALLEST_MASS)
         hold(grid.remapped, grid, base, top, drive)
         work.moved_x[:] = work.moved_x % width
-        deform(particles, grid, work, soil, scheme, 0.0, dt)
+        deform(particles, grid, work, laws, scheme, 0.0, dt)
     return work.ledger[INTERNAL_WORK]
 
 
@@ -85,6 +85,7 @@ def strip(cell):
     x, y = lattice(width, HEIGHT + 2.0 * RIM, spacing)
     particles = allocate_particles(x, y, spacing**2, DENSITY)
     is_weak = abs(particles.y - RIM - 0.5 * HEIGHT) < 0.5 * WEAK_WIDTH
+    particles.cohesion_residual[:] = RESIDUAL
     particles.cohesion[:] = np.where(is_weak, WEAK_SHARE, 1.0) * PEAK
     particles.velocity_x[:] = DRIVE / HEIGHT * np.clip(particles.y - RIM, 0.0, HEIGHT)
     return particles
@@ -92,14 +93,14 @@ def strip(cell):
 
 def shear_force(cell, rate, internal_length):
     """Return displacement of the top in m and mean shear stress in Pa, from the work of the stresses (SAMPLES,)."""
-    soil = soil_on_cells(cell, rate, internal_length, RESIDUAL)
+    soil, scheme = soil_on_cells(cell, rate, internal_length), damped_scheme(internal_length)
     grid = smoothing_grid(WIDTH_IN_CELLS * cell, HEIGHT + 2.0 * RIM, cell, internal_length)
     particles = strip(cell)
     work = allocate_workspace(particles.x.size)
     base = round(RIM / cell) + PADDING
     top = base + round(HEIGHT / cell)
     displacement, works = in_samples(
-        lambda dt, steps: shear(particles, grid, work, soil, MUSL, base, top, DRIVE, dt, steps),
+        lambda dt, steps: shear(particles, grid, work, (soil,), scheme, base, top, DRIVE, dt, steps),
         soil,
         cell,
         SLIP,

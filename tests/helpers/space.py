@@ -6,8 +6,10 @@ from driver import MUSL, elastic_soil, grid_without_walls, lattice, node_indices
 
 from campaign.simulation.detachment import detached_volume
 from solver.basis import allocate_stencil, evaluate_stencil
-from solver.model import make_soil
+from solver.laws.mohr_coulomb import mohr_coulomb
+from solver.laws.registry import Constants
 from solver.particles import allocate_particles, copy_particles
+from solver.softening import Softening
 from solver.step import advance, allocate_workspace
 from solver.surface import Surface
 
@@ -47,7 +49,7 @@ def stretch_flagged(basis, length=12.0):
     grid, work = grid_without_walls(7.0 * length, 6.0, 1.0, BASES[basis]), allocate_workspace(x.size)
     stretch, step = 1.0, 0.01
     while detached_volume(strip, start, level, grid) == 0.0:
-        advance(strip, grid, work, elastic_soil(1e-9, 0.0), MUSL, 0.0, 0.0, step, 1)
+        advance(strip, grid, work, (elastic_soil(1e-9, 0.0),), MUSL, 0.0, 0.0, step, 1)
         stretch += step
     return stretch
 
@@ -61,10 +63,11 @@ def slip_to_half_strength(cell, rate):
     The strip is four cells wide. Its foot is fixed, its uppermost cells are drawn sideways, one row is 5 % weaker.
     """
     x, y = lattice(4.0 * cell, HEIGHT, cell / 2.0)
-    soil = make_soil(1e7, 0.3, 0.0, RESIDUAL, 0.0, rate, False)
+    soil = mohr_coulomb(Constants(1e7, 0.3, 0.0, Softening(rate, is_linear=False)))
     strip = allocate_particles(x + 4.0 * cell, y, cell**2 / 4.0, 2000.0)
     drawn = y > HEIGHT - cell
     strip.cohesion[~drawn] = PEAK
+    strip.cohesion_residual[:] = RESIDUAL
     strip.cohesion[np.abs(y - HEIGHT / 2.0 + cell / 2.0) < cell / 2.0] *= 0.95
     grid, work = grid_without_walls(16.0 * cell, HEIGHT + 2.0 * cell, cell), allocate_workspace(x.size)
     grid.free_y[:] = 0.0
@@ -73,7 +76,7 @@ def slip_to_half_strength(cell, rate):
     peak, slip = 0.0, 0.0
     while slip < 0.4:
         strip.velocity_x[drawn] = speed
-        advance(strip, grid, work, soil, MUSL, 0.0, 0.0, dt, 4)
+        advance(strip, grid, work, (soil,), MUSL, 0.0, 0.0, dt, 4)
         slip += 4.0 * speed * dt
         shear = strip.stress_xy[~drawn].mean()
         peak = max(peak, shear)

@@ -34,7 +34,7 @@ def particle_is_stable(place, courant, steps=400):
     grid, work = grid_without_walls(5.0, 5.0, 1.0, BASES["linear"]), allocate_workspace(1)
     grid.free_y[:] = 0.0
     for _ in range(steps):  # one by one: strains of the order of one would end the growth
-        advance(particle, grid, work, SOIL, SCHEMES["usl"], 0.0, 0.0, courant / SPEED, 1)
+        advance(particle, grid, work, (SOIL,), SCHEMES["usl"], 0.0, 0.0, courant / SPEED, 1)
         if not abs(particle.stress_xx[0]) < 2.0 * first:
             return False
     return True

@@ -41,7 +41,7 @@ def vibrate(cells, amplitude, scheme=MUSL, courant=0.3, half_length=0.25):
     error, share, energy = np.empty((3, steps))
     for k in range(steps):
         before = bar.velocity_x.copy()
-        advance(bar, grid, work, soil, scheme, 0.0, 0.0, dt, 1)
+        advance(bar, grid, work, (soil,), scheme, 0.0, 0.0, dt, 1)
         u = bar.x - X
         error[k] = np.mean((u - amplitude * np.sin(FREQUENCY * time[k]) * mode) ** 2)
         share[k] = u @ mode

@@ -91,7 +91,7 @@ def soft_ground(courant):
     """Return record and energy error of ground that its own weight, 380 kPa at the base, presses to a fifth."""
     errors = []
     settings = {"young_modulus": 3e5, "gravity": "ramp", "courant": courant}
-    return simulate(settings, observe=lambda march: errors.append(march.energy_error())), errors[-1]
+    return simulate(settings, observe=lambda march: errors.append(march.energy.error())), errors[-1]
 
 
 def is_stopped(record):

@@ -6,7 +6,7 @@ from small_slope import small_model
 
 from solver import observables
 from solver.constants import STANDARD_GRAVITY
-from solver.filling import fill_ground
+from solver.filling import ground_of
 from solver.in_situ import LOCAL_DAMPING, NotSettledError, in_situ_state, lay_geostatic_stress, unbalanced_share
 from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace
 from solver.surface import Surface
@@ -17,8 +17,9 @@ LEVEL = Surface(np.array([0.0, 5.0]), np.array([4.0, 4.0]))
 
 def assert_geostatic(ground, model, tolerance):
     """``s_yy = -gamma depth``, ``s_xx = s_zz = nu / (1 - nu) s_yy``, no shear, over the stress at the base."""
-    unit_weight = model.density * STANDARD_GRAVITY
-    k0 = model.poisson_ratio / (1.0 - model.poisson_ratio)
+    unit_weight = model.materials[0].unit_weight
+    poisson_ratio = model.materials[0].poisson_ratio
+    k0 = poisson_ratio / (1.0 - poisson_ratio)
     vertical = -unit_weight * (4.0 - ground.y)
     size = 4.0 * unit_weight
     np.testing.assert_allclose(ground.stress_yy, vertical, atol=tolerance * size)
@@ -38,11 +39,11 @@ def test_level_ground_finds_the_geostatic_state_from_nothing():
     Once the surface lies between node lines, a quarter to a third of a cell of weight is missing at every depth.
     """
     model = small_model()._replace(surface=LEVEL)
-    ground = fill_ground(LEVEL, model.cell_size, 4, model.density)
+    ground = ground_of(model)
     grid, work = model.allocate_grid(), allocate_workspace(ground.x.size)
     dt = stable_step(0.5, model.cell_size, model.wave_speed, 0.0)
     scheme = Scheme(STRESS_UPDATES["musl"], 1.0, LOCAL_DAMPING)
-    advance(ground, grid, work, model.soil, scheme, STANDARD_GRAVITY, 0.0, dt, 2000)
+    advance(ground, grid, work, model.laws, scheme, STANDARD_GRAVITY, 0.0, dt, 2000)
     assert unbalanced_share(grid, STANDARD_GRAVITY) < 1e-6
     assert_geostatic(ground, model, tolerance=model.cell_size / 3.0 / 4.0)
 
@@ -53,7 +54,7 @@ def test_in_situ_slope_is_at_rest_elastic_and_balanced():
     assert observables.kinetic_energy(start) == 0.0
     assert np.all(start.plastic_strain == 0.0)
     grid, work = model.allocate_grid(), allocate_workspace(start.x.size)
-    advance(start, grid, work, model.soil, model.scheme, STANDARD_GRAVITY, 0.0, 1e-9, 1)
+    advance(start, grid, work, model.laws, model.scheme, STANDARD_GRAVITY, 0.0, 1e-9, 1)
     assert unbalanced_share(grid, STANDARD_GRAVITY) < 2e-4
     movable_weight = STANDARD_GRAVITY * grid.mass[grid.free_y == 1.0].sum()  # nodes of the base carry their own
     assert -np.sum(grid.force[grid.free_y == 0.0, 1]) == pytest.approx(movable_weight, rel=1e-3)
@@ -71,15 +72,16 @@ def test_vertical_stress_under_a_slope_carries_its_weight():
 
 def test_laid_stress_is_zero_at_the_surface_and_never_tension():
     model = small_model()
-    ground = fill_ground(model.surface, 0.5, 4, model.density)
-    lay_geostatic_stress(ground, model.surface, 20e3, 0.3)
+    ground = ground_of(model)
+    lay_geostatic_stress(ground, model)
     assert ground.stress_yy.max() <= 0.0
     depth = model.surface.height_at(ground.x) - ground.y
-    np.testing.assert_allclose(ground.stress_yy, -20e3 * depth, atol=1e-6)
+    np.testing.assert_allclose(ground.stress_yy, -2000.0 * STANDARD_GRAVITY * depth, atol=1e-6)
 
 
 def test_ground_too_soft_to_carry_itself_is_refused():
     soft = small_model()
-    soft = soft._replace(soil=soft.soil._replace(bulk_modulus=2e3, shear_modulus=1e3))
+    law = soft.materials[0].law._replace(bulk_modulus=2e3, shear_modulus=1e3)
+    soft = soft._replace(materials=(soft.materials[0]._replace(law=law),))
     with pytest.raises(NotSettledError, match="did not come to rest under its own weight"):
         in_situ_state(soft)

@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from pointwise import evaluate_exp_decay, evaluate_sine, share_left
+from pointwise import evaluate_exp_decay, evaluate_sine
 
-from solver.model import make_soil
-from solver.softening import softened_strength
+from solver.softening import Softening, Strength, remaining_shares, softened_strength
 
 
 def test_exp_decay_equals_the_library_to_1e_11():
@@ -35,8 +34,7 @@ def test_sine_equals_the_library_to_1e_11():
 @pytest.mark.parametrize("rate", [0.0, 0.35, 50.0])
 def test_share_of_the_drop_that_is_left(is_linear, law, rate):
     plastic_strain = np.linspace(0.0, 10.0, 1001)
-    found = np.empty_like(plastic_strain)
-    share_left(plastic_strain, rate, is_linear, found)
+    found = remaining_shares(plastic_strain, Softening(rate, is_linear))
     np.testing.assert_allclose(found, law(rate * plastic_strain), rtol=0.0, atol=1e-11)
 
 
@@ -45,6 +43,6 @@ def test_share_of_the_drop_that_is_left(is_linear, law, rate):
     ("plastic_strain", "cohesion", "friction"), [(0.0, 20e3, np.radians(10.0)), (1e6, 10e3, np.radians(5.0))]
 )
 def test_strength_runs_from_peak_to_residual(is_linear, plastic_strain, cohesion, friction):
-    soil = make_soil(70e6, 0.35, 0.0, 10e3, np.radians(5.0), 0.35, is_linear)
-    found = softened_strength(plastic_strain, 20e3, np.radians(10.0), soil)
+    strength = Strength(20e3, np.radians(10.0), 10e3, np.radians(5.0))
+    found = softened_strength(plastic_strain, strength, Softening(0.35, is_linear))
     np.testing.assert_allclose(found, [cohesion * np.cos(friction), np.sin(friction)], rtol=1e-11)

@@ -6,14 +6,16 @@ import pytest
 from solver.basis import allocate_stencil, evaluate_stencil
 from solver.filling import fill_ground
 from solver.grid import allocate_grid
-from solver.model import make_soil
+from solver.laws.mohr_coulomb import mohr_coulomb
+from solver.laws.registry import Constants
 from solver.particles import allocate_particles
+from solver.softening import NO_SOFTENING
 from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace, spread_all
 from solver.surface import Surface
 from solver.transfer import gradient, interpolate
 
 CELL = 0.5
-SOIL = make_soil(10e6, 0.3, 0.0, 10e3, 0.1, 0.0, False)
+SOIL = mohr_coulomb(Constants(10e6, 0.3, 0.0, NO_SOFTENING))
 HALF_LENGTHS = [1e-6, 0.25, 0.5]
 
 
@@ -83,7 +85,7 @@ def test_a_free_body_keeps_its_momentum_to_round_off(stress_update, flip):
     before = [np.sum(particles.mass * v) for v in (particles.velocity_x, particles.velocity_y)]
     size = np.sum(particles.mass * np.hypot(particles.velocity_x, particles.velocity_y))
     scheme = Scheme(STRESS_UPDATES[stress_update], flip, 0.0)
-    assert advance(particles, grid, work, SOIL, scheme, 0.0, 0.0, 1e-4, 100) == 100
+    assert advance(particles, grid, work, (SOIL,), scheme, 0.0, 0.0, 1e-4, 100) == 100
     after = [np.sum(particles.mass * v) for v in (particles.velocity_x, particles.velocity_y)]
     np.testing.assert_allclose(after, before, rtol=0.0, atol=1e-12 * size)
 
@@ -96,7 +98,7 @@ def test_free_fall_is_exact(stress_update):
     block.y[:] += 3.07
     grid, work = free_grid(5.0, 5.0, 0.25), allocate_workspace(block.x.size)
     height, dt, steps = block.y.copy(), 1e-3, 500
-    advance(block, grid, work, SOIL, Scheme(STRESS_UPDATES[stress_update], 1.0, 0.0), 9.81, 0.0, dt, steps)
+    advance(block, grid, work, (SOIL,), Scheme(STRESS_UPDATES[stress_update], 1.0, 0.0), 9.81, 0.0, dt, steps)
     t = steps * dt
     np.testing.assert_allclose(block.velocity_y, -9.81 * t, rtol=1e-12)
     np.testing.assert_allclose(block.velocity_x, 0.0, atol=1e-12)

@@ -17,7 +17,7 @@ from campaign.seeds import BASELINE
 from campaign.simulation.detachment import detached_volume
 from campaign.simulation.ground import prepare
 from solver import observables
-from solver.march import Outcome, run
+from solver.march import MarchEnd, march_to_rest
 
 DATA = Path(__file__).parent / "data"
 COLUMN = 0.01  # m, width of the columns whose mean height is compared
@@ -46,13 +46,13 @@ def collapse(*overrides):
     scene = load_scene("bui2008", overrides)
     ground = prepare(scene)
     start = ground.released(BASELINE)
-    history = run(ground.model, start, ground.coordinates["time"])
+    history = march_to_rest(ground.model, start, ground.coordinates["time"])
     edges = np.arange(0.0, ground.model.surface.width + 0.5 * COLUMN, COLUMN)
-    half_spacing = 0.5 * ground.model.cell_size / np.sqrt(ground.model.particles_per_cell)
+    half_spacing = 0.5 * ground.model.particle_spacing
     # Separated bars have been given the volume of the gaps between them; their mass knows better.
-    debris = history.particles._replace(volume=history.particles.mass / ground.model.density)
+    debris = history.particles._replace(volume=history.particles.mass / ground.model.materials[0].density)
     height = observables.deposit_surface(debris, half_spacing, edges)
-    return Collapse(ground.model, start, history, ground.model.slide, 0.5 * (edges[1:] + edges[:-1]), height)
+    return Collapse(ground.model, start, history, ground.model.criteria, 0.5 * (edges[1:] + edges[:-1]), height)
 
 
 def measured(name):
@@ -91,7 +91,7 @@ def bars():
 
 
 def test_the_column_comes_to_rest(bars):
-    assert bars.history.outcome is Outcome.AT_REST
+    assert bars.history.end is MarchEnd.AT_REST
     assert bars.history.settle_time < 1.5
     assert abs(bars.history.energy_error) < 0.01
 

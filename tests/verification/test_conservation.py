@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 from driver import Row, grid_without_walls, lattice
 
-from solver.model import make_soil
+from solver.laws.mohr_coulomb import mohr_coulomb
+from solver.laws.registry import Constants
 from solver.particles import allocate_particles
+from solver.softening import Softening
 from solver.step import LOCKING, STRESS_UPDATES, Scheme, advance, allocate_workspace
 
 DENSITY, SIDE, SPACE, CELL = 2000.0, 4.0, 12.0, 0.5  # kg/m3, m
-SOIL = make_soil(10e6, 0.3, np.radians(5.0), 2e3, np.radians(5.0), 5.0, False)
+SOIL = mohr_coulomb(Constants(10e6, 0.3, np.radians(5.0), Softening(5.0, is_linear=False)))
 CASES = [(update, locking, flip) for update in STRESS_UPDATES for locking in LOCKING for flip in (1.0, 0.95)]
 
 
@@ -24,6 +26,8 @@ def tumbling_block():
     rng = np.random.default_rng(4)
     block.cohesion[:] = rng.uniform(5e3, 20e3, x.size)
     block.friction_angle[:] = rng.uniform(0.1, 0.6, x.size)
+    block.cohesion_residual[:] = 2e3
+    block.friction_angle_residual[:] = np.radians(5.0)
     block.velocity_x[:] = 1.0 - 3.0 * (y - 0.5 * SIDE)
     block.velocity_y[:] = 0.7 + 2.0 * (x - 0.5 * SIDE)
     return block
@@ -35,7 +39,7 @@ def largest_drift(stress_update, locking, flip):
     mass, size = block.mass.sum(), np.sum(block.mass * np.hypot(block.velocity_x, block.velocity_y))
     before = np.array([block.mass @ block.velocity_x, block.mass @ block.velocity_y])
     scheme = Scheme(STRESS_UPDATES[stress_update], flip, 0.0, LOCKING[locking])
-    steps = advance(block, grid, allocate_workspace(block.x.size), SOIL, scheme, 0.0, 0.0, 1e-3, 400)
+    steps = advance(block, grid, allocate_workspace(block.x.size), (SOIL,), scheme, 0.0, 0.0, 1e-3, 400)
     assert steps == 400
     assert np.median(block.plastic_strain) > 0.1
     after = np.array([block.mass @ block.velocity_x, block.mass @ block.velocity_y])

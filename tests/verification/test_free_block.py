@@ -32,7 +32,7 @@ def breathe(scheme, courant):
     initial, momentum = observables.kinetic_energy(block), np.sum(block.mass * block.velocity_x)
     grid, work = grid_without_walls(SPACE, SPACE, 1.0), allocate_workspace(x.size)
     steps = int(np.ceil(DURATION * SPEED / courant))
-    advance(block, grid, work, SOIL, scheme, 0.0, 0.0, DURATION / steps, steps)
+    advance(block, grid, work, (SOIL,), scheme, 0.0, 0.0, DURATION / steps, steps)
     energy = observables.kinetic_energy(block) + work.ledger[0]
     drift = np.abs([np.sum(block.mass * v) / momentum - 1.0 for v in (block.velocity_x, block.velocity_y)]).max()
     return (energy - initial) / vibration, drift

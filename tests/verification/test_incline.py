@@ -34,9 +34,11 @@ from driver import MUSL, UGIMP, Row, grid_without_walls, lattice, march, node_in
 from solver.constants import STANDARD_GRAVITY
 from solver.elastic import p_wave_speed
 from solver.grid import SMALLEST_MASS, allocate_grid
-from solver.model import make_soil
+from solver.laws.mohr_coulomb import mohr_coulomb
+from solver.laws.registry import Constants
 from solver.operations import solve_momentum
 from solver.particles import allocate_particles
+from solver.softening import NO_SOFTENING
 from solver.step import accelerate, allocate_workspace, deform, spread_all
 
 HEIGHT, DENSITY, YOUNG_MODULUS, POISSON_RATIO, COURANT = 1.0, 2000.0, 1e8, 0.3, 0.4
@@ -85,7 +87,7 @@ def slide(particles, grid, soil, gravity_x, gravity_y, dt, steps):
         share_in_rows(grid.remapped, grid)
         grid.remapped[:] /= np.maximum(grid.mass, SMALLEST_MASS)[:, None]
         work.moved_x[:] %= grid.width
-        assert deform(particles, grid, work, soil, MUSL, 0.0, dt)
+        assert deform(particles, grid, work, (soil,), MUSL, 0.0, dt)
         velocity[step] = particles.velocity_x[upper].mean()
     return velocity
 
@@ -93,7 +95,7 @@ def slide(particles, grid, soil, gravity_x, gravity_y, dt, steps):
 def ground(incline, cells, length):
     """Return cohesionless ground of ``length`` m with the at-rest stress of level ground, and soil and time step."""
     cell = HEIGHT / cells
-    soil = make_soil(YOUNG_MODULUS, POISSON_RATIO, incline.dilation, 0.0, 0.0, 0.0, False)
+    soil = mohr_coulomb(Constants(YOUNG_MODULUS, POISSON_RATIO, incline.dilation, NO_SOFTENING))
     x, y = lattice(length, HEIGHT, 0.5 * cell)
     particles = allocate_particles(x, y, 0.25 * cell**2, DENSITY)
     is_weak = y < incline.weak_cells * cell

@@ -11,11 +11,11 @@ The solver returns to the surface with the strength of the increment's start, so
 import numpy as np
 import pytest
 from driver import Row, observed_orders, orders_row
-from pointwise import COHESION, follow, soil_of
+from pointwise import COHESION, follow, soil_of, strength_of
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from solver.mohr_coulomb import update_stress
+from solver.laws.registry import update_stress
 
 PHI, PRESSURE = np.radians(10.0), 100e3  # rad, Pa
 RESIDUAL_COHESION, RESIDUAL_PHI = 10e3, np.radians(5.0)
@@ -23,6 +23,7 @@ INCREMENTS = (4e-3, 2e-3, 1e-3, 5e-4)
 TURNING_STEPS = (50, 100, 200, 400)
 LAWS = {"exponential": lambda x: np.exp(-x), "linear": lambda x: 1.0 - x}
 RATE = 2.0
+STRENGTH = strength_of(COHESION, PHI)
 STEADY_SHEAR = COHESION * np.cos(PHI) + PRESSURE * np.sin(PHI)
 
 
@@ -33,7 +34,7 @@ def compression_strength():
     stress, plastic_strain = (-PRESSURE, -PRESSURE, -PRESSURE, 0.0), 0.0
 
     def compressed(lateral):
-        return update_stress(*stress, lateral, -1e-4, 0.0, plastic_strain, COHESION, PHI, soil)
+        return update_stress(soil, tuple(stress), (lateral, -1e-4, 0.0), plastic_strain, STRENGTH, 1.0)
 
     for _ in range(60):
         lateral = brentq(lambda strain: compressed(strain)[0] + PRESSURE, 0.0, 2e-4, xtol=1e-18)
@@ -46,7 +47,7 @@ def march(strain_at, steps, soil):
     """Return the history (steps, 5) of hydrostatic soil along ``strain_at`` (t in 0..1), columns xx, yy, xy."""
     strain = np.diff(strain_at(np.linspace(0.0, 1.0, steps + 1)), axis=0)
     history = np.empty((steps, 5))
-    follow(np.array([-PRESSURE, -PRESSURE, -PRESSURE, 0.0]), strain, COHESION, PHI, soil, history)
+    follow(np.array([-PRESSURE, -PRESSURE, -PRESSURE, 0.0]), strain, STRENGTH, soil, 1.0, history)
     return history
 
 

@@ -54,7 +54,7 @@ def turned_once(steps, along_chords):
         x_p, y_p = body.x - CENTRE, body.y - CENTRE
         work.moved_x[:] = CENTRE + np.cos(angle) * x_p - np.sin(angle) * y_p
         work.moved_y[:] = CENTRE + np.sin(angle) * x_p + np.cos(angle) * y_p
-        assert deform(body, grid, work, SOIL, MUSL, 0.0, 1.0)
+        assert deform(body, grid, work, (SOIL,), MUSL, 0.0, 1.0)
     return body
 
 
@@ -86,7 +86,7 @@ def spin(cells, duration, courant=0.3):
     before, area = angular_momentum(), body.volume.sum()
     steps = int(np.ceil(duration * SPEED / (courant * cell)))
     work = allocate_workspace(body.x.size)
-    assert advance(body, grid, work, SOIL, MUSL, 0.0, 0.0, duration / steps, steps) == steps
+    assert advance(body, grid, work, (SOIL,), MUSL, 0.0, 0.0, duration / steps, steps) == steps
     return angular_momentum() / before - 1.0, body.volume.sum() / area - 1.0, steps
 
 

@@ -47,8 +47,8 @@ def settle(cells, squash, half_length=UGIMP):
     steps = 40 * cells
     duration = 10.0 * HEIGHT / np.sqrt(modulus / DENSITY)
     soil, dt = elastic_soil(modulus, 0.0), duration / steps
-    advance(column, grid, work, soil, DAMPED, 0.0, STANDARD_GRAVITY / duration, dt, steps)
-    advance(column, grid, work, soil, DAMPED, STANDARD_GRAVITY, 0.0, dt, 4 * steps)
+    advance(column, grid, work, (soil,), DAMPED, 0.0, STANDARD_GRAVITY / duration, dt, steps)
+    advance(column, grid, work, (soil,), DAMPED, STANDARD_GRAVITY, 0.0, dt, 4 * steps)
     stress = -WEIGHT * (HEIGHT - Y)
     place = modulus / WEIGHT * (np.exp(stress / modulus) - np.exp(-squash))
     settlement = HEIGHT - modulus / WEIGHT * (1.0 - np.exp(-squash))

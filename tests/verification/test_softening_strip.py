@@ -47,7 +47,7 @@ def test_local_softening_gives_a_curve_for_each_mesh():
 
 
 def test_local_softening_scaled_with_the_cell_gives_one_curve_in_a_band():
-    """The band is one cell, so the rate in proportion to the cell keeps slip to strength: what ``rate_at`` is for."""
+    """The band is one cell, so the rate in proportion to the cell keeps slip to strength."""
     assert spread(curves(CELLS[:2], [LOCAL_RATE, 0.5 * LOCAL_RATE], 0.0)[1]) < 0.05
 
 

@@ -43,7 +43,7 @@ def base_stress(cells):
     dt = PERIODS * PERIOD / steps
     stress = np.empty(steps)
     for step in range(steps):
-        advance(column, grid, work, soil, MUSL, STANDARD_GRAVITY, 0.0, dt, 1)
+        advance(column, grid, work, (soil,), MUSL, STANDARD_GRAVITY, 0.0, dt, 1)
         stress[step] = column.stress_yy[lowest].mean()
     return dt * np.arange(1, steps + 1), stress
 

@@ -42,7 +42,7 @@ def collide(cell, scheme):
     initial, dt = observables.kinetic_energy(discs), 0.3 * cell / (WAVE_SPEED + SPEED * np.sqrt(2.0))
     kinetic = np.empty(int(END / dt))
     for step in range(kinetic.size):
-        advance(discs, grid, work, SOIL, scheme, 0.0, 0.0, dt, 1)
+        advance(discs, grid, work, (SOIL,), scheme, 0.0, 0.0, dt, 1)
         kinetic[step] = observables.kinetic_energy(discs) / initial
     disc_mass = discs.mass[of_left].sum()
     momentum = np.sum(discs.mass * discs.velocity_x) / (disc_mass * SPEED)

@@ -72,7 +72,7 @@ def spurious_shear(scheme, half_length):
     column = allocate_particles(x, y, 0.25**2, density)
     grid, work = allocate_grid(1.0, 7.0, 0.5, half_length), allocate_workspace(x.size)
     dt = 0.3 * 0.5 / p_wave_speed(soil.bulk_modulus, soil.shear_modulus, density)
-    advance(column, grid, work, soil, scheme, STANDARD_GRAVITY, 0.0, dt, 300)
+    advance(column, grid, work, (soil,), scheme, STANDARD_GRAVITY, 0.0, dt, 300)
     assert np.abs(column.stress_yy).max() > 50e3
     return np.abs(column.stress_xy).max() / np.abs(column.stress_yy).max()
 

@@ -13,6 +13,7 @@ from campaign.report.figures.style import BLACK, ORANGE
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
 from campaign.simulation.solver_model import Array
+from solver.grid import particle_spacing
 from solver.surface import Surface
 
 MARGIN = 0.08
@@ -95,5 +96,5 @@ def section_of(scene: Scene, runouts: Sequence[float] | Array) -> Section:
     surface = surface_of(scene.geometry)
     known = np.asarray(runouts)[np.isfinite(runouts)]
     reach = surface.toe[0] + float(np.max(known, initial=0.0))
-    side = scene.numerics.cell / np.sqrt(scene.numerics.particles_per_cell)
+    side = particle_spacing(scene.numerics.cell, scene.numerics.particles_per_cell)
     return Section(surface, float(side), min(surface.width, (1 + MARGIN) * reach + 2 * side))

@@ -3,7 +3,8 @@
 from campaign.scene.ground_surface import surface_through
 from campaign.scene.rules.measures import Points
 from campaign.scene.rules.rule import Rules
-from solver.timestep import LARGEST_COURANT
+from solver.method import Basis, StressUpdate
+from solver.timestep import largest_courant
 
 LEAST_CELLS_OF_HEIGHT = 4
 
@@ -28,8 +29,8 @@ def _cells_of_relief(cell: float, surface: Points | None) -> str | None:
 
 
 @RULES.on("numerics.courant", "numerics.basis", "numerics.stress_update")
-def _stable_step(courant: float, basis: str, stress_update: str) -> str | None:
-    largest = LARGEST_COURANT[basis, stress_update]
+def _stable_step(courant: float, basis: Basis, stress_update: StressUpdate) -> str | None:
+    largest = largest_courant(basis, stress_update)
     if largest == 0.0:
         return (
             f'the basis "{basis}" with the stress update "{stress_update}" is unstable at every Courant number as '

@@ -8,6 +8,7 @@ from campaign.record import RealizationSummary, Status
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
 from campaign.simulation.ground import prepare
+from campaign.simulation.solver_model import softening_rate
 from campaign.statistics.discretisation import Discretisation, estimate, with_half_cell
 from campaign.statistics.tally import tally_of
 
@@ -38,7 +39,7 @@ def test_half_the_cell_keeps_the_rest(scene):
 def test_half_the_cell_halves_the_rate_of_local_softening():
     scene = load_scene("ma2023-printed")
     half = with_half_cell(scene, 3)
-    assert half.soil.softening.rate_at(half.numerics.cell) == scene.soil.softening.rate_at(scene.numerics.cell) / 2
+    assert softening_rate(half) == softening_rate(scene) / 2
 
 
 def test_a_realization_is_the_same_ground_on_both_meshes(scene):

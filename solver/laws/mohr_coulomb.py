@@ -15,42 +15,49 @@ so that the loop over particles vectorises.
 import math
 from typing import NamedTuple
 
-from solver._jit import law
-from solver.hooke import elastic_increment
-from solver.softening import softened_strength
+from solver._jit import point
+from solver.elastic import bulk_modulus, shear_modulus
+from solver.hooke import elastic_trial
+from solver.laws.registry import Constants, constitutive_law
+from solver.principal import equivalent_plastic_strain, principal_stresses, relaxed
+from solver.softening import Softening, softened_strength
 
 _TINY = 1e-30
 
 
-class Soil(NamedTuple):
-    """Properties that all particles share."""
+class MohrCoulomb(NamedTuple):
+    """Properties that all particles of a material share."""
 
     bulk_modulus: float  # Pa
     shear_modulus: float  # Pa
     sin_dilation: float  # sine of the dilation angle psi
-    cohesion_residual: float  # Pa
-    friction_residual: float  # rad
-    softening_rate: float  # per unit plastic strain
-    softening_is_linear: bool
-    internal_length: float = 0.0  # m over which plastic strain is averaged (``nonlocal_softening``); 0: local
+    softening: Softening
 
 
-@law
+def mohr_coulomb(constants: Constants) -> MohrCoulomb:
+    """Return the law of soil with these constants."""
+    elasticity = constants.young_modulus, constants.poisson_ratio
+    return MohrCoulomb(
+        bulk_modulus(*elasticity), shear_modulus(*elasticity), math.sin(constants.dilation_angle), constants.softening
+    )
+
+
+@point
 def yield_function(s1, s3, c_cos_phi, sin_phi):
     """Return ``f`` in Pa for the largest and the smallest principal stress."""
     return (s1 - s3) + (s1 + s3) * sin_phi - 2.0 * c_cos_phi
 
 
-@law
-def return_mapping(s1, s2, s3, c_cos_phi, sin_phi, soil):
+@point
+def return_mapping(s1, s2, s3, c_cos_phi, sin_phi, law):
     """Return the principal stresses on or inside the yield surface for the trial ``s1 >= s2 >= s3`` (Pa).
 
     Flow on one plane changes the stress by ``-dgamma D b`` with ``D b = (rise, transverse, -fall)``. On an edge the two
     multipliers solve ``[[a, b], [b, a]] (dgamma_1, dgamma_2) = (f_13, f_other)``.
     """
-    G = soil.shear_modulus
-    sin_psi = soil.sin_dilation
-    transverse = 2.0 * (soil.bulk_modulus - 2.0 * G / 3.0) * sin_psi
+    G = law.shear_modulus
+    sin_psi = law.sin_dilation
+    transverse = 2.0 * (law.bulk_modulus - 2.0 * G / 3.0) * sin_psi
     rise = 2.0 * G * (1.0 + sin_psi) + transverse
     fall = 2.0 * G * (1.0 - sin_psi) - transverse
     coupling = 2.0 * transverse * sin_phi
@@ -91,51 +98,23 @@ def return_mapping(s1, s2, s3, c_cos_phi, sin_phi, soil):
     return (apex if on_apex else new_1), (apex if on_apex else new_2), (apex if on_apex else new_3)
 
 
-@law
-def equivalent_plastic_strain(drop_1, drop_2, drop_3, shear):
-    """Return ``sqrt(2/3 e:e)`` of the plastic strain that relaxed the principal stresses by ``drop`` (Pa)."""
-    mean = (drop_1 + drop_2 + drop_3) / 3.0
-    squares = (drop_1 - mean) ** 2 + (drop_2 - mean) ** 2 + (drop_3 - mean) ** 2
-    return math.sqrt(squares * (2.0 / 3.0)) / (2.0 * shear)
+@point
+def return_stress(stress, c_cos_phi, sin_phi, law):
+    """Return ``(xx, yy, zz, xy, plastic strain increment)`` for a trial stress ``(xx, yy, zz, xy)`` in Pa."""
+    s1, s2, s3 = principal_stresses(stress)
+    n1, n2, n3 = return_mapping(s1, s2, s3, c_cos_phi, sin_phi, law)
+    xx, yy, zz, xy = relaxed(stress, s1 - n1, s2 - n2, s3 - n3)
+    return xx, yy, zz, xy, equivalent_plastic_strain(s1 - n1, s2 - n2, s3 - n3, law.shear_modulus)
 
 
-@law
-def mohr_coulomb(xx, yy, zz, xy, c_cos_phi, sin_phi, soil):
-    """Return ``(xx, yy, zz, xy, plastic strain increment)`` for a trial stress in plane strain (Pa).
+@constitutive_law("mohr-coulomb", MohrCoulomb, mohr_coulomb)
+def update_mohr_coulomb(law, stress, strain, plastic_strain, strength, dt):
+    """Return stress and plastic strain after an elastic predictor and the return to the yield surface.
 
-    The in-plane principal stresses are ``mean +- radius``; ``zz`` is principal and may be largest, middle or smallest.
+    Arguments are those of ``registry.update_stress``. Strength is that of the plastic strain before the increment; the
+    lag vanishes with the increment.
     """
-    mean = 0.5 * (xx + yy)
-    half_difference = 0.5 * (xx - yy)
-    radius = math.sqrt(half_difference * half_difference + xy * xy)
-    high = mean + radius
-    low = mean - radius
-    s1 = max(high, zz)
-    s3 = min(low, zz)
-    s2 = high + low + zz - s1 - s3
-    n1, n2, n3 = return_mapping(s1, s2, s3, c_cos_phi, sin_phi, soil)
-    drop_1, drop_2, drop_3 = s1 - n1, s2 - n2, s3 - n3
-    drop_high = drop_2 if zz > high else drop_1
-    drop_low = drop_2 if zz < low else drop_3
-    drop_zz = drop_1 if zz > high else (drop_3 if zz < low else drop_2)
-    drop_mean = 0.5 * (drop_high + drop_low)
-    shrink = 0.5 * (drop_high - drop_low) / max(radius, _TINY)
-    return (
-        xx - drop_mean - half_difference * shrink,
-        yy - drop_mean + half_difference * shrink,
-        zz - drop_zz,
-        xy - xy * shrink,
-        equivalent_plastic_strain(drop_1, drop_2, drop_3, soil.shear_modulus),
-    )
-
-
-@law
-def update_stress(xx, yy, zz, xy, strain_xx, strain_yy, strain_xy, plastic_strain, cohesion, friction_angle, soil):
-    """Return ``(xx, yy, zz, xy, plastic_strain)`` after an elastic predictor and the return to the yield surface.
-
-    Strength is that of the plastic strain before the increment; the lag vanishes with the increment.
-    """
-    d_xx, d_yy, d_zz, d_xy = elastic_increment(strain_xx, strain_yy, strain_xy, soil.bulk_modulus, soil.shear_modulus)
-    c_cos_phi, sin_phi = softened_strength(plastic_strain, cohesion, friction_angle, soil)
-    xx, yy, zz, xy, increment = mohr_coulomb(xx + d_xx, yy + d_yy, zz + d_zz, xy + d_xy, c_cos_phi, sin_phi, soil)
+    trial = elastic_trial(stress, strain, law.bulk_modulus, law.shear_modulus)
+    c_cos_phi, sin_phi = softened_strength(plastic_strain, strength, law.softening)
+    xx, yy, zz, xy, increment = return_stress(trial, c_cos_phi, sin_phi, law)
     return xx, yy, zz, xy, plastic_strain + increment

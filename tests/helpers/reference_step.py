@@ -17,7 +17,7 @@ EMPTY_NODE = 1e-12  # kg/m: a node with less mass stands still
 EMPTY_CELL = 1e-12  # m2: a cell with less volume has no mean
 
 
-class Method(NamedTuple):
+class StepChoices(NamedTuple):
     """How a step is taken."""
 
     stress_update: str  # "musl", "usl" or "usf"
@@ -202,8 +202,8 @@ def rotated(stress, angle):
 def deform(particles, increments, point_law):
     """Line 5, in place: turn the stress with the ground, let the law change it; return the work of the stresses.
 
-    ``point_law(p, xx, yy, zz, xy, strain_xx, strain_yy, strain_xy, plastic_strain)`` returns the new stress and plastic
-    strain of particle ``p``. The rotation is Cayley's: its half angle has the tangent ``W_yx dt / 2``.
+    ``point_law(p, (xx, yy, zz, xy), (strain_xx, strain_yy, strain_xy), plastic_strain)`` returns the new stress and
+    plastic strain of particle ``p``. The rotation is Cayley's: its half angle has the tangent ``W_yx dt / 2``.
     """
     work = 0.0
     for p in range(particles.x.size):
@@ -215,13 +215,8 @@ def deform(particles, increments, point_law):
         before = rotated(before, 2.0 * np.arctan(0.5 * spin))
         xx, yy, zz, xy, plastic_strain = point_law(
             p,
-            before[0, 0],
-            before[1, 1],
-            particles.stress_zz[p],
-            before[0, 1],
-            strain[0, 0],
-            strain[1, 1],
-            strain[0, 1],
+            (before[0, 0], before[1, 1], particles.stress_zz[p], before[0, 1]),
+            (strain[0, 0], strain[1, 1], strain[0, 1]),
             particles.plastic_strain[p],
         )
         volume = particles.volume[p] * np.linalg.det(np.eye(2) + L)
@@ -244,7 +239,7 @@ def reference_step(start, grid, point_law, method, gravity, gravity_rate, dt):
         Only its geometry, walls and smoothing are read.
     point_law : callable
         See ``deform``.
-    method : Method
+    method : StepChoices
     gravity, gravity_rate : float
         Downward, at the start of the step in m/s2, and its growth in m/s3.
     dt : float

@@ -1,0 +1,56 @@
+"""Principal stresses of plane strain: ``zz`` is one of them, whatever its rank, and the other two lie in the plane."""
+
+import math
+
+from solver._jit import point
+
+_TINY = 1e-30
+
+
+@point
+def in_plane(stress):
+    """Return mean, half difference of the normal stresses, and radius of Mohr's circle in the plane (Pa)."""
+    xx, yy, _, xy = stress
+    half_difference = 0.5 * (xx - yy)
+    return 0.5 * (xx + yy), half_difference, math.sqrt(half_difference * half_difference + xy * xy)
+
+
+@point
+def principal_stresses(stress):
+    """Return ``s1 >= s2 >= s3`` of a stress ``(xx, yy, zz, xy)`` (Pa)."""
+    mean, _, radius = in_plane(stress)
+    zz = stress[2]
+    high, low = mean + radius, mean - radius
+    s1 = max(high, zz)
+    s3 = min(low, zz)
+    return s1, high + low + zz - s1 - s3, s3
+
+
+@point
+def relaxed(stress, drop_1, drop_2, drop_3):
+    """Return the stress ``(xx, yy, zz, xy)`` after its principal values, largest first, have dropped; axes stay.
+
+    Where nothing drops the stress is what it was, bit for bit.
+    """
+    xx, yy, zz, xy = stress
+    mean, half_difference, radius = in_plane(stress)
+    high, low = mean + radius, mean - radius
+    drop_high = drop_2 if zz > high else drop_1
+    drop_low = drop_2 if zz < low else drop_3
+    drop_zz = drop_1 if zz > high else (drop_3 if zz < low else drop_2)
+    drop_mean = 0.5 * (drop_high + drop_low)
+    shrink = 0.5 * (drop_high - drop_low) / max(radius, _TINY)
+    return (
+        xx - drop_mean - half_difference * shrink,
+        yy - drop_mean + half_difference * shrink,
+        zz - drop_zz,
+        xy - xy * shrink,
+    )
+
+
+@point
+def equivalent_plastic_strain(drop_1, drop_2, drop_3, shear):
+    """Return ``sqrt(2/3 e:e)`` of the plastic strain that relaxed the principal stresses by ``drop`` (Pa)."""
+    mean = (drop_1 + drop_2 + drop_3) / 3.0
+    squares = (drop_1 - mean) ** 2 + (drop_2 - mean) ** 2 + (drop_3 - mean) ** 2
+    return math.sqrt(squares * (2.0 / 3.0)) / (2.0 * shear)
