@@ -1,4 +1,4 @@
-"""Lognormal strength parameters, and what their correlation asks of the Gaussian fields behind them."""
+"""Distributions of strength parameters, and what their correlation asks of the Gaussian fields behind them."""
 
 from dataclasses import dataclass
 from math import log, log1p, sqrt
@@ -23,6 +23,17 @@ class Lognormal:
     def __call__(self, gaussian: Array) -> Array:
         """Turn standard Gaussian values into values of this distribution."""
         return np.asarray(np.exp(log(self.mean) - self.sigma**2 / 2 + self.sigma * gaussian))
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A value that is the same everywhere."""
+
+    mean: float
+
+    def __call__(self, gaussian: Array) -> Array:
+        """Return the value in the place of each Gaussian one."""
+        return np.full_like(gaussian, self.mean)
 
 
 def gaussian_cross_correlation(rho: float, first: Lognormal, second: Lognormal) -> float:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from campaign.errors import SamplerError
 from campaign.fields.cholesky import CholeskySampler
 from campaign.fields.correlation import Array, Correlation, autocorrelation_distance
-from campaign.fields.marginals import Lognormal, gaussian_cross_correlation
+from campaign.fields.marginals import Constant, Lognormal, gaussian_cross_correlation
 from campaign.fields.reference_grid import Mask, ReferenceGrid
 from campaign.fields.samplers import CirculantSampler, KroneckerSampler, Sampler
 from campaign.scene.sections import Cohesion, FrictionAngle, RandomField
@@ -94,7 +94,7 @@ class StrengthSampler:
         The cells, in row order, for which `gaussian` draws values.
     gaussian : Sampler
         Draws two independent standard Gaussian fields.
-    cohesion, friction_angle : Lognormal
+    cohesion, friction_angle : Lognormal, Lognormal or Constant
         Marginal distributions [Pa, rad].
     cross_correlation : float
         Correlation of the two Gaussian fields.
@@ -104,7 +104,7 @@ class StrengthSampler:
     cells: NDArray[np.bool_]
     gaussian: Sampler
     cohesion: Lognormal
-    friction_angle: Lognormal
+    friction_angle: Lognormal | Constant
     cross_correlation: float
 
     def draw(self, seed: int, realization: int) -> Strengths:
@@ -136,7 +136,7 @@ class StrengthSampler:
 def strength_sampler(
     field: RandomField,
     cohesion: Cohesion,
-    friction_angle: FrictionAngle,
+    friction_angle: FrictionAngle | None,
     width: float,
     height: float,
     directory: Path | None = None,
@@ -147,7 +147,7 @@ def strength_sampler(
     Parameters
     ----------
     field, cohesion, friction_angle : RandomField, Cohesion, FrictionAngle
-        Sections of a scene: correlation and marginals.
+        Sections of a scene: correlation and marginals; without a friction angle it is 0.
     width, height : float
         Bounding box of the ground [m], from the origin on.
     directory : Path, optional
@@ -166,9 +166,10 @@ def strength_sampler(
     method = AUTOMATIC if field.sampler == "auto" else field.sampler
     cells = grid.cells_with(soil if method == "cholesky" else None)
     gaussian = gaussian_sampler(method, correlation, grid, cells, directory)
-    first, second = Lognormal(cohesion.mean, cohesion.cov), Lognormal(friction_angle.mean, friction_angle.cov)
+    first = Lognormal(cohesion.mean, cohesion.cov)
+    second = Lognormal(friction_angle.mean, friction_angle.cov) if friction_angle else Constant(0.0)
     rho = field.cross_correlation
-    if field.cross_correlation_of == "lognormal":
+    if field.cross_correlation_of == "lognormal" and isinstance(second, Lognormal):
         rho = gaussian_cross_correlation(rho, first, second)
     return StrengthSampler(grid, cells, gaussian, first, second, rho)
 

@@ -34,14 +34,14 @@ def modelling_choices(scene: Scene) -> dict[str, str]:
     release = "elastic stresses at rest under gravity, then the strength at time 0"
     ramp = f"gravity grows over {numerics.ramp_time:g} s while the ground yields"
     return {
+        "Soil law": scene.soil.law,
         "Release": f"{numerics.gravity}: {ramp if numerics.gravity == 'ramp' else release}",
         "Softening": _softening(scene),
         "Volumetric locking": f"treatment: {numerics.locking}",
         "Method": f"{numerics.basis} basis, {numerics.stress_update} stress update, cells of {numerics.cell:g} m with "
         f"{numerics.particles_per_cell} particles, FLIP share {numerics.flip:g}",
         "Correlation": f"{field.correlation}, {kind} {field.horizontal:g} m along and {field.vertical:g} m across",
-        "Cross-correlation": f"{field.cross_correlation:g} between cohesion and friction angle "
-        f"({field.cross_correlation_of} fields)",
+        "Cross-correlation": _cross_correlation(scene),
     }
 
 
@@ -107,6 +107,13 @@ def _energy(results: Results) -> Row:
         return Row("Energy balance", name, "no slide", "", "0")
     median, largest = f"median {100 * np.median(errors):.2g} %", f"at most {100 * errors.max():.2g} %"
     return Row("Energy balance", name, median, largest, str(errors.size))
+
+
+def _cross_correlation(scene: Scene) -> str:
+    if scene.soil.friction_angle is None:
+        return "none: cohesion is the only random property"
+    field = scene.field
+    return f"{field.cross_correlation:g} between cohesion and friction angle ({field.cross_correlation_of} fields)"
 
 
 def _softening(scene: Scene) -> str:

@@ -7,6 +7,9 @@ from typing import Any
 
 from campaign.scene.sections import SceneFile
 
+ADDED_LATER = {"soil.law": "mohr-coulomb"}
+"""Values of keys that older scenes do not have; with these a scene is what it was before."""
+
 
 class Scene(SceneFile):
     """A valid scene, with the name and the text it came from; every number in SI units."""
@@ -19,7 +22,7 @@ class Scene(SceneFile):
         """Return, by dotted key, every SI value that decides what realization k is; ready for JSON."""
         sections = self.model_dump(mode="json", include={"geometry", "soil", "field", "numerics", "slide"})
         values = flatten(sections) | {"campaign.seed": self.campaign.seed}
-        return {key: value for key, value in values.items() if value is not None}
+        return {key: value for key, value in values.items() if value is not None and value != ADDED_LATER.get(key)}
 
     def digest(self) -> str:
         """Return the SHA-256 of the identity."""

@@ -49,7 +49,7 @@ class Geometry(Section):
 
 
 class Cohesion(Section):
-    """Lognormal peak cohesion, and the deterministic residual one; in Pa."""
+    """Lognormal peak cohesion (undrained strength with the law "tresca"), and the deterministic residual one; in Pa."""
 
     mean: PositivePressure
     cov: PositiveNumber
@@ -74,15 +74,15 @@ class Softening(Section):
 
 
 class Soil(Section):
-    """Unit weight in N/m3, Young's modulus in Pa, dilation angle in rad, and strength."""
+    """Constitutive law, unit weight in N/m3, Young's modulus in Pa, dilation angle in rad, and strength."""
 
-    law: Literal["mohr-coulomb"] = "mohr-coulomb"
+    law: Literal["mohr-coulomb", "drucker-prager", "tresca"] = "mohr-coulomb"
     unit_weight: Annotated[UnitWeight, POSITIVE]
     young_modulus: PositivePressure
     poisson_ratio: Annotated[float, must("be at least 0 and below 0.5", lambda ratio: 0.0 <= ratio < 0.5)]
     dilation_angle: Annotated[Angle, NOT_NEGATIVE] = 0.0
     cohesion: Cohesion
-    friction_angle: FrictionAngle
+    friction_angle: FrictionAngle | None = None
     softening: Softening
 
 

@@ -132,11 +132,13 @@ class Ground:
         within = np.minimum(self.lattice.x, self.model.surface.width)  # a wall may stand beyond by part of a cell
         cohesion, friction_angle = self.draw(realization).at(within, self.lattice.y)
         soil = self.scene.soil
+        least_cohesion = soil.cohesion.residual
+        least_friction_angle = soil.friction_angle.residual if soil.friction_angle else 0.0
         return self.in_situ._replace(
-            cohesion=np.maximum(cohesion, soil.cohesion.residual),
-            friction_angle=np.maximum(friction_angle, soil.friction_angle.residual),
-            cohesion_residual=np.full_like(cohesion, soil.cohesion.residual),
-            friction_angle_residual=np.full_like(friction_angle, soil.friction_angle.residual),
+            cohesion=np.maximum(cohesion, least_cohesion),
+            friction_angle=np.maximum(friction_angle, least_friction_angle),
+            cohesion_residual=np.full_like(cohesion, least_cohesion),
+            friction_angle_residual=np.full_like(friction_angle, least_friction_angle),
         )
 
 

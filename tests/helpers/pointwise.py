@@ -8,7 +8,7 @@ from solver._jit import kernel
 from solver.hooke import elastic_increment
 from solver.kinematics import rotate_stress
 from solver.laws import mohr_coulomb
-from solver.laws.registry import Constants, update_stress
+from solver.laws.registry import Constants, make_law, update_stress
 from solver.softening import Softening, Strength, exp_decay, sine
 
 COHESION = 20e3  # Pa
@@ -17,7 +17,12 @@ RESIDUAL_COHESION, RESIDUAL_FRICTION_ANGLE = 10e3, np.radians(5.0)
 
 def soil_of(psi, rate=0.0, is_linear=False):
     """Return Mohr-Coulomb soil of the dilation angle ``psi`` (degrees)."""
-    return mohr_coulomb.mohr_coulomb(Constants(70e6, 0.35, np.radians(psi), Softening(rate, is_linear)))
+    return law_of("mohr-coulomb", psi, rate, is_linear)
+
+
+def law_of(name, psi=0.0, rate=0.0, is_linear=False):
+    """Return the law of that name for the same soil."""
+    return make_law(name, Constants(70e6, 0.35, np.radians(psi), Softening(rate, is_linear)))
 
 
 def strength_of(cohesion, friction_angle):
@@ -58,6 +63,32 @@ def follow(stress, strain, strength, law, dt, history):
             law, (xx, yy, zz, xy), (strain[k, 0], strain[k, 1], strain[k, 2]), plastic_strain, strength, dt
         )
         history[k] = xx, yy, zz, xy, plastic_strain
+
+
+def follow_law(law, stress, strain, strength):
+    """Return the history (n, 5) of ``stress`` (4,) along strain increments (n, 3)."""
+    history = np.empty((len(strain), 5))
+    follow(stress, strain, strength, law, 1.0, history)
+    return history
+
+
+def drive(law, stress, increment, steps, strength):
+    """Return ``(xx, yy, zz, xy, plastic_strain)`` after ``steps`` equal strain increments (3,)."""
+    return follow_law(law, stress, np.tile(increment, (steps, 1)), strength)[-1]
+
+
+@kernel
+def _fill_by_law(law, stress, strength, result):
+    for p in range(stress.shape[1]):
+        trial = stress[0, p], stress[1, p], stress[2, p], stress[3, p]
+        result[:, p] = update_stress(law, trial, (0.0, 0.0, 0.0), 0.0, strength, 1.0)
+
+
+def return_by(law, stress, strength):
+    """Return stress (4, n) and plastic strain increment (n,) of trial stresses (4, n) by any law."""
+    result = np.empty((5, stress.shape[1]))
+    _fill_by_law(law, stress, strength, result)
+    return result[:4], result[4]
 
 
 @kernel

@@ -39,23 +39,30 @@ def configurations(section: Section, slide: ReplayedSlide) -> Illustration:
 
 
 def strengths(section: Section, ground: Ground, slide: ReplayedSlide) -> Illustration:
-    """Draw peak cohesion and friction angle where the particles were at first (figure 4 of the paper)."""
-    figure, panels = _stack(section, 2, colour_bars=2)
+    """Draw the random peak strengths where the particles were at first (figure 4 of the paper)."""
     lattice, k = ground.lattice, slide.realization
-    fields = {"cohesion (kPa)": slide.cohesion / 1e3, "friction angle (°)": np.degrees(slide.friction_angle)}
+    fields = {"cohesion (kPa)": slide.cohesion / 1e3}
+    if ground.scene.soil.friction_angle is not None:
+        fields["friction angle (°)"] = np.degrees(slide.friction_angle)
+    figure, panels = _stack(section, len(fields), colour_bars=len(fields))
     for panel, (label, values) in zip(panels, fields.items(), strict=True):
         low, high = (float(np.percentile(values, share)) for share in (0.5, 99.5))
         particles = section.draw(panel, lattice.x, lattice.y, values, "cividis", (low, max(high, low + 1e-9)))
         _colour_bar(figure, [panel], particles, label, extend="both")
-    letter(panels, ["peak cohesion", "peak friction angle"])
-    asked = ground.scene.field.cross_correlation
-    correlation = np.corrcoef(slide.cohesion, slide.friction_angle)[0, 1]
+    letter(panels, ["peak cohesion", "peak friction angle"][: len(fields)])
     caption = (
         f"Peak strength of realization {k}, whose final run-out is the median of all, where the particles were before "
-        f"the slide. Dark is weak. Over these particles cohesion and friction angle are correlated by "
-        f"{correlation:.2f}; asked, over all realizations, was {asked:g}."
+        "the slide. Dark is weak."
     )
-    alt = f"Two maps of the slope: cohesion and friction angle of realization {k}, in layers longer than high."
+    if len(fields) > 1:
+        asked = ground.scene.field.cross_correlation
+        correlation = np.corrcoef(slide.cohesion, slide.friction_angle)[0, 1]
+        caption += (
+            f" Over these particles cohesion and friction angle are correlated by {correlation:.2f}; "
+            f"asked, over all realizations, was {asked:g}."
+        )
+    names = " and ".join(label.split(" (")[0] for label in fields)
+    alt = f"Maps of the slope, one above the other: {names} of realization {k}, in layers longer than high."
     return Illustration(figure, caption, alt)
 
 

@@ -4,6 +4,7 @@ from math import exp, expm1, log1p, pi, sqrt
 
 from campaign.scene.rules.measures import degrees
 from campaign.scene.rules.rule import Rules
+from campaign.scene.rules.soil import FRICTIONLESS
 
 RULES = Rules()
 
@@ -24,6 +25,13 @@ def _feasible_correlation(correlation: float, of: str, cohesion_cov: float, fric
             f"lognormal fields with these coefficients of variation can only have a cross-correlation "
             f'between {lowest:.3f} and {highest:.3f}; choose one, or set cross_correlation_of = "gaussian"'
         )
+    return None
+
+
+@RULES.on("field.cross_correlation", "soil.law")
+def _correlation_of_two(correlation: float, law: str) -> str | None:
+    if law == FRICTIONLESS and correlation != 0.0:
+        return f'with the law "{law}" the cohesion is the only strength, with nothing to be correlated to; use 0'
     return None
 
 

@@ -10,6 +10,9 @@ from campaign.scene.rules.rule import Rules
 # crashed with its reason, never clipped.
 EXTREME_QUANTILE = 5.5
 
+FRICTIONLESS = "tresca"
+"""The law without a friction angle."""
+
 RULES = Rules()
 
 
@@ -20,6 +23,30 @@ def largest_allowed_cov(mean: float, limit: float) -> float:
     """
     s = EXTREME_QUANTILE - sqrt(max(EXTREME_QUANTILE**2 - 2.0 * log(limit / mean), 0.0))
     return sqrt(expm1(s**2))
+
+
+@RULES.on("soil.friction_angle", "soil.law")
+def _needed_friction_angle(_none: None, law: str) -> str | None:
+    if law == FRICTIONLESS:
+        return None
+    return (
+        f'the law "{law}" needs it; add a section [soil.friction_angle], for instance with mean = "10 deg", '
+        f'cov = 0.1, residual = "5 deg", or choose law = "{FRICTIONLESS}"'
+    )
+
+
+@RULES.on("soil.friction_angle.mean", "soil.law")
+def _friction_angle_that_is_not_read(_mean: float, law: str) -> str | None:
+    if law == FRICTIONLESS:
+        return f'the law "{law}" knows undrained strength alone, which is the cohesion; remove the friction_angle'
+    return None
+
+
+@RULES.on("soil.dilation_angle", "soil.law")
+def _undrained_dilation(dilation: float, law: str) -> str | None:
+    if law == FRICTIONLESS and dilation > 0.0:
+        return "undrained soil keeps its volume; use 0 deg"
+    return None
 
 
 @RULES.on("soil.cohesion.residual", "soil.cohesion.mean")

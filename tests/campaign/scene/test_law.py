@@ -1,0 +1,73 @@
+"""The constitutive law of a scene: which strengths it reads, and that the others are refused."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scene_complaints import EXAMPLE, complaint, complaints, written
+
+from campaign.report.error_budget import modelling_choices
+from campaign.scene import load_scene
+from campaign.simulation.ground import prepare
+
+FRICTION = EXAMPLE.text[EXAMPLE.text.index("[soil.friction_angle]") : EXAMPLE.text.index("[soil.softening]")]
+UNDRAINED = (
+    ('law = "mohr-coulomb" ', 'law = "tresca" '),
+    (FRICTION, ""),
+    ("cross_correlation = -0.5 ", "cross_correlation = 0.0 "),
+)
+COARSE = ("numerics.cell=2 m", "numerics.end_time=1 s")
+
+
+def test_undrained_ground_has_no_friction_angle(tmp_path: Path) -> None:
+    scene = load_scene(written(tmp_path, *UNDRAINED))
+    assert scene.soil.law == "tresca"
+    assert scene.soil.friction_angle is None
+    assert modelling_choices(scene)["Soil law"] == "tresca"
+    assert modelling_choices(scene)["Cross-correlation"].startswith("none")
+
+
+def test_a_friction_angle_given_with_undrained_strength_is_refused() -> None:
+    messages = complaints("soil.law=tresca")
+    assert len(messages) == 2
+    assert "soil.friction_angle.mean" in messages[0]
+    assert "knows undrained strength alone, which is the cohesion; remove the friction_angle" in messages[0]
+    assert "with nothing to be correlated to; use 0" in messages[1]
+
+
+@pytest.mark.parametrize("law", ["mohr-coulomb", "drucker-prager"])
+def test_the_other_laws_need_one(tmp_path: Path, law: str) -> None:
+    message = complaint(f"soil.law={law}", source=written(tmp_path, (FRICTION, "")))
+    assert message.startswith("soil.friction_angle")
+    assert f'is not given, but the law "{law}" needs it; add a section [soil.friction_angle]' in message
+
+
+def test_undrained_ground_does_not_dilate(tmp_path: Path) -> None:
+    message = complaint("soil.dilation_angle=1 deg", source=written(tmp_path, *UNDRAINED))
+    assert "undrained soil keeps its volume; use 0 deg" in message
+
+
+def test_a_scene_from_before_the_law_was_a_key_is_the_same_scene(tmp_path: Path) -> None:
+    older = written(tmp_path, ('law = "mohr-coulomb"           # paper, section 2.2\n', ""))
+    assert "mohr-coulomb" not in older.read_text("utf-8")
+    assert load_scene(older).digest() == load_scene("ma2023").digest()
+    assert load_scene("ma2023", ["soil.law=drucker-prager"]).digest() != load_scene("ma2023").digest()
+
+
+def test_undrained_strength_is_random_and_slides(tmp_path: Path) -> None:
+    """The lognormal cohesion is the undrained strength; with 20 kPa the slope of 15 m fails."""
+    ground = prepare(load_scene(written(tmp_path, *UNDRAINED), COARSE))
+    start = ground.released(3)
+    assert np.all(start.friction_angle == 0.0)
+    assert np.std(start.cohesion) > 500.0
+    np.testing.assert_array_equal(ground.strengths(3).friction_angle, 0.0)
+    assert ground.simulate(3).values["max_displacement"][-1] > 0.1
+
+
+def test_drucker_prager_ground_is_about_as_strong_as_mohr_coulomb_ground() -> None:
+    """Matched at collapse in plane strain; on the way there the out-of-plane stress is another."""
+    moved = [
+        prepare(load_scene("ma2023", [*COARSE, f"soil.law={law}"])).simulate_mean().values["max_displacement"][-1]
+        for law in ("mohr-coulomb", "drucker-prager")
+    ]
+    assert moved[1] == pytest.approx(moved[0], rel=0.1)
