@@ -63,7 +63,7 @@ def weight_and_gradient(distance, half_length, inverse_cell):
 
 @inlined
 def evaluate_stencil(stencil, x, y, grid):
-    """Fill ``stencil`` for the particles at ``x``, ``y`` (m, relative to the walls)."""
+    """Fill ``stencil`` with the weights of the particles at ``x``, ``y`` (n,) in m, from the lower left wall corner."""
     inverse_cell = 1.0 / grid.cell_size
     for p in range(x.size):
         xi = (x[p] - grid.origin) * inverse_cell

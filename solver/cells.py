@@ -48,7 +48,7 @@ def pool(sums, value, volume, x, y, grid):
 
 @inlined
 def _add(sums, value, cell, right, upper, columns):
-    """Share ``value`` among four cells, ``cell`` the lower left of them."""
+    """Add to ``sums`` (nodes,) a ``value``, shared among four cells of which ``cell`` is the lower left."""
     sums[cell] += (1.0 - right) * (1.0 - upper) * value
     sums[cell + 1] += right * (1.0 - upper) * value
     sums[cell + columns] += (1.0 - right) * upper * value
@@ -65,7 +65,7 @@ def average(sums, least, grid):
 
 @inlined
 def read(means, x, y, grid):
-    """Return ``sum_c w_cp mean_c`` for a particle at ``x``, ``y`` (m)."""
+    """Return ``sum_c w_cp mean_c`` of ``means`` (nodes,) for a particle at ``x``, ``y`` (m)."""
     i, right = overlap(x, grid)
     j, upper = overlap(y, grid)
     cell = j * grid.columns + i

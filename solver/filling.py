@@ -11,6 +11,7 @@ from solver.surface import Surface
 def fill_ground(surface: Surface, cell_size: float, particles_per_cell: int, density: float) -> Particles:
     """Return particles on a regular lattice whose centres lie strictly below the surface, sorted by cell.
 
+    ``cell_size`` is in m and ``density`` in kg/m3; ``particles_per_cell`` is a square number.
     A particle stands for the lattice square around it, so an inclined surface is a staircase of half a spacing. The
     ground reaches to the wall of the grid, which is the next node beyond the end of the surface.
     """

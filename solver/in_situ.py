@@ -9,7 +9,8 @@ from solver.grid import Grid
 from solver.method import Method
 from solver.model import Model
 from solver.particles import Particles
-from solver.step import advance, allocate_workspace, scheme_of
+from solver.scheme import scheme_of
+from solver.step import advance, allocate_workspace
 from solver.timestep import stable_step
 
 LOCAL_DAMPING = 0.7  # share of the unbalanced force (Cundall); gone after release

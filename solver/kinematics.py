@@ -5,10 +5,11 @@ from solver._jit import point
 
 @point
 def rotate_stress(xx, yy, xy, rotation):
-    """Return the in-plane stress (Pa) turned by the rotation increment ``W_xy dt`` with Cayley's exact rotation.
+    """Return the in-plane stress ``(xx, yy, xy)`` in Pa, turned by the rotation increment ``W_xy dt``.
 
-    The half-angle tangent is ``rotation / 2``, so the invariants are kept to round-off for any increment; the
-    first-order update ``sigma + dt (W sigma - sigma W)`` would make the deviator grow with every turn.
+    The rotation is Cayley's exact one. The half-angle tangent is ``rotation / 2``, so the invariants are kept to round-
+    off for any increment; the first-order update ``sigma + dt (W sigma - sigma W)`` would make the deviator grow with
+    every turn.
     """
     half = 0.5 * rotation
     scale = 1.0 / (1.0 + half * half)
@@ -24,5 +25,5 @@ def rotate_stress(xx, yy, xy, rotation):
 
 @point
 def volume_ratio(l_xx, l_xy, l_yx, l_yy):
-    """Return ``det(1 + L dt)`` of the increment of the displacement gradient."""
+    """Return ``det(1 + L dt)``, new volume over old, of the increment ``L dt`` of the displacement gradient."""
     return (1.0 + l_xx) * (1.0 + l_yy) - l_xy * l_yx

@@ -8,8 +8,8 @@ from solver.internal_length import smoothing_weights
 from solver.laws.registry import Law
 from solver.materials import Material
 from solver.method import Method
+from solver.scheme import Scheme, scheme_of
 from solver.slide import PAPER, SlideCriteria
-from solver.step import Scheme, scheme_of
 from solver.surface import Surface
 
 HEADROOM_IN_CELLS = 2  # space above the highest ground

@@ -27,7 +27,7 @@ from solver.cells import average, clear, pool, read
 
 @inlined
 def add_shifted(target, target_start, source, source_start, count, weight):
-    """Add ``weight`` times ``count`` entries of ``source`` to ``target``."""
+    """Add ``weight`` times ``count`` entries of ``source`` (nodes,) to ``target`` (nodes,), from a start in each."""
     for i in range(count):
         target[target_start + i] += weight * source[source_start + i]
 

@@ -23,7 +23,19 @@ def clear_state(grid):
 
 @inlined
 def solve_momentum(grid, gravity, damping, dt):
-    """Set nodal acceleration and the velocity at the end of the step from mass, momentum and force."""
+    """Set nodal acceleration and the velocity at the end of the step from mass, momentum and force.
+
+    Parameters
+    ----------
+    grid : Grid
+        Its ``acceleration`` and ``velocity`` are set, its ``remapped`` is emptied.
+    gravity : float
+        Downward, in m/s2.
+    damping : float
+        Share of the unbalanced force that opposes the motion.
+    dt : float
+        In s.
+    """
     for i in range(grid.mass.size):
         has_mass = grid.mass[i] > SMALLEST_MASS
         inverse = 1.0 / grid.mass[i] if has_mass else 0.0
@@ -45,7 +57,23 @@ def solve_momentum(grid, gravity, damping, dt):
 
 @inlined
 def update_velocity(particles, stencil, grid, moved_x, moved_y, flip_fraction, dt):
-    """Accelerate the particles and note where they will be at the end of the step."""
+    """Accelerate a block of particles and note where they will be at the end of the step.
+
+    Parameters
+    ----------
+    particles : Particles (n,)
+        Their velocities are modified.
+    stencil : Stencil
+        Their weights.
+    grid : Grid
+        With acceleration and velocity solved.
+    moved_x, moved_y : ndarray (n,)
+        Filled with the places in m.
+    flip_fraction : float
+        1 FLIP, 0 PIC.
+    dt : float
+        In s.
+    """
     for p in range(particles.x.size):
         a_x, a_y = interpolate(grid.acceleration, stencil, p, grid.columns)
         v_x, v_y = interpolate(grid.velocity, stencil, p, grid.columns)
@@ -79,7 +107,23 @@ def remap_velocity(grid):
 
 @inlined
 def gather_increments(increment, nodal_velocity, stencil, count, columns, dt):
-    """Fill ``increment`` with the displacement gradients ``L dt`` of the block."""
+    """Fill ``increment`` with the displacement gradients ``L dt`` of a block of particles.
+
+    Parameters
+    ----------
+    increment : ndarray (4, n)
+        Filled: xx, xy, yx, yy.
+    nodal_velocity : ndarray (nodes, 2)
+        In m/s.
+    stencil : Stencil
+        Weights of the particles.
+    count : int
+        Of the particles, at most ``n``.
+    columns : int
+        Of the grid.
+    dt : float
+        In s.
+    """
     for p in range(count):
         xx, xy, yx, yy = gradient(nodal_velocity, stencil, p, columns)
         increment[0, p] = xx * dt
@@ -147,7 +191,20 @@ def are_inside(x, y, grid):
 
 @inlined
 def move(particles, moved_x, moved_y, grid, gravity, ledger):
-    """Put the particles at their new places and enter the work of gravity; return whether they are inside."""
+    """Put a block of particles at their new places and enter the work of gravity; return whether they are inside.
+
+    Parameters
+    ----------
+    particles : Particles (n,)
+        Their places are modified.
+    moved_x, moved_y : ndarray (n,)
+        New places in m.
+    grid : Grid
+    gravity : float
+        Downward, in m/s2.
+    ledger : ndarray (2,)
+        The work of gravity in J/m is added to it.
+    """
     fall = 0.0
     for p in range(particles.x.size):
         fall += particles.mass[p] * (particles.y[p] - moved_y[p])

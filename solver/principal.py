@@ -28,9 +28,9 @@ def principal_stresses(stress):
 
 @point
 def relaxed(stress, drop_1, drop_2, drop_3):
-    """Return the stress ``(xx, yy, zz, xy)`` after its principal values, largest first, have dropped; axes stay.
+    """Return the stress ``(xx, yy, zz, xy)`` in Pa after its principal values, largest first, have dropped by so much.
 
-    Where nothing drops the stress is what it was, bit for bit.
+    The principal axes stay. Where nothing drops the stress is what it was, bit for bit.
     """
     xx, yy, zz, xy = stress
     mean, half_difference, radius = in_plane(stress)

@@ -7,7 +7,7 @@ The modified update-stress-last step (MUSL; Sulsky, Zhou and Schreyer 1995, Nair
     2  a_i = f_i / m_i + g,  v_i = (mv)_i / m_i + a_i dt,  walls                     solve_momentum
     3  v_p <- v_p + S_ip a_i dt                                                      update_velocity
     4  v_i <- S_ip m_p v_p / m_i,  walls                                             remap_velocity
-    5  L_p = v_i (x) grad S_ip,  sigma_p <- law(sigma_p, L_p dt),  V_p               update_material
+    5  L_p = v_i (x) grad S_ip,  sigma_p <- law(sigma_p, L_p dt),  V_p               update_materials
     6  x_p <- x_p + S_ip v_i(2) dt                                                   move
 
 Update-stress-last (USL) leaves out 4; update-stress-first (USF) moves before 4. A step is two passes over the
@@ -15,6 +15,9 @@ particles, one for 3 and 4, one for 5, 6 and 1 of the next step, in blocks small
 averages against locking (``mean_dilation``) need all particles at two places, which cuts the second pass in three;
 averaged plastic strain (``nonlocal_softening``) follows as a pass of its own. The operations are in ``operations`` and
 ``transfer``; here they are put together.
+
+All kernels take ``particles`` (n,), the nodes of ``grid`` and scratch arrays ``work``, and modify them; ``laws``, a
+tuple with the parameters of each material; a ``scheme``; gravity downward in m/s2; ``dt`` in s.
 """
 
 from typing import NamedTuple
@@ -26,7 +29,6 @@ from solver.basis import Stencil, allocate_stencil, evaluate_stencil
 from solver.cells import average, clear
 from solver.materials import update_materials
 from solver.mean_dilation import NO_VOLUME, pool_dilation, pool_pressure, read_pressure, replace_dilation
-from solver.method import Method
 from solver.nonlocal_softening import average_plastic_strain
 from solver.operations import (
     INTERNAL_WORK,
@@ -40,15 +42,10 @@ from solver.operations import (
     update_velocity,
 )
 from solver.particles import take_block
+from solver.scheme import CELL_AVERAGE, USF, USL
 from solver.transfer import particle_to_grid, spread_mass
 
 BLOCK = 128
-
-STRESS_UPDATES = {"musl": 0, "usl": 1, "usf": 2}
-USL, USF = STRESS_UPDATES["usl"], STRESS_UPDATES["usf"]
-
-LOCKING = {"none": 0, "cell-average": 1}
-CELL_AVERAGE = LOCKING["cell-average"]
 
 
 class Workspace(NamedTuple):
@@ -76,22 +73,6 @@ def allocate_workspace(n_particles: int) -> Workspace:
         plastic_strain=np.empty(n_particles),
         ledger=np.zeros(2),
     )
-
-
-class Scheme(NamedTuple):
-    """How a step is taken."""
-
-    stress_update: int  # of STRESS_UPDATES
-    flip_fraction: float  # 1 FLIP, 0 PIC
-    damping: float  # local damping: this share of the unbalanced force opposes the motion (in-situ stage only)
-    locking: int = LOCKING["none"]  # of LOCKING
-    averages_plastic_strain: bool = False  # over the internal length (``nonlocal_softening``)
-
-
-def scheme_of(method: Method, damping: float = 0.0, averages_plastic_strain: bool = False) -> Scheme:
-    """Return a method as kernels take it; ``damping`` is a share of the unbalanced force."""
-    numbers = STRESS_UPDATES[method.stress_update], LOCKING[method.locking]
-    return Scheme(numbers[0], method.flip_fraction, damping, numbers[1], averages_plastic_strain)
 
 
 @kernel
@@ -220,10 +201,23 @@ def deform(particles, grid, work, laws, scheme, gravity, dt):
 
 @kernel
 def advance(particles, grid, work, laws, scheme, gravity, gravity_rate, dt, steps):
-    """Take ``steps`` time steps of ``dt`` seconds, in place; return how many were taken.
+    """Take ``steps`` time steps; return how many were taken, fewer if a particle left the grid in the next one.
 
-    Fewer than ``steps`` means that a particle left the grid in the next one. Gravity (m/s2, downward) grows by
-    ``gravity_rate`` (m/s3).
+    Parameters
+    ----------
+    particles : Particles (n,)
+    grid : Grid
+        Afterwards its mass, momentum and force are those of the particles.
+    work : Workspace
+        Its ledger goes on.
+    laws : tuple of NamedTuple
+        Parameters of the law of each material.
+    scheme : Scheme
+    gravity, gravity_rate : float
+        Downward, at the start in m/s2, and its growth in m/s3.
+    dt : float
+        In s.
+    steps : int
     """
     if not are_inside(particles.x, particles.y, grid):
         return 0

@@ -25,7 +25,7 @@ def largest_courant(basis: Basis, stress_update: StressUpdate) -> float:
 
 
 def stable_step(courant: float, cell_size: float, wave_speed: float, fastest: float) -> float:
-    """Return ``dt = C h / (c_p + max |v|)`` in s."""
+    """Return ``dt = C h / (c_p + max |v|)`` in s, from the Courant number, m and m/s."""
     return courant * cell_size / (wave_speed + fastest)
 
 

@@ -49,7 +49,7 @@ def particle_to_grid(particles, stress_xx, stress_yy, stress_xy, stencil, grid):
 
 @inlined
 def interpolate(field, stencil, p, columns):
-    """Return ``sum_i S_ip field_i`` of a nodal vector field ``(nodes, 2)``."""
+    """Return ``sum_i S_ip field_i`` at particle ``p`` of a nodal vector field ``(nodes, 2)``, as (x, y)."""
     x = 0.0
     y = 0.0
     for j in range(3):
@@ -63,7 +63,7 @@ def interpolate(field, stencil, p, columns):
 
 @inlined
 def gradient(field, stencil, p, columns):
-    """Return ``sum_i field_i (x) grad S_ip`` of a nodal vector field ``(nodes, 2)``, as (xx, xy, yx, yy)."""
+    """Return ``sum_i field_i (x) grad S_ip`` at particle ``p`` of a field ``(nodes, 2)``, as (xx, xy, yx, yy)."""
     xx = 0.0
     xy = 0.0
     yx = 0.0
@@ -93,7 +93,7 @@ def spread_mass(particles, stencil, grid):
 
 @inlined
 def spread_momentum(field, momentum_x, momentum_y, stencil, p, columns):
-    """Add ``S_ip m_p v_p`` to a nodal vector field ``(nodes, 2)``."""
+    """Add ``S_ip m_p v_p`` of particle ``p``, its momentum in kg/s, to a nodal vector field ``(nodes, 2)``."""
     first = stencil.node[p]
     sx, sy = three(stencil.sx, p), three(stencil.sy, p)
     for j in range(3):

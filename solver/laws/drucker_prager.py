@@ -60,7 +60,7 @@ def plane_strain_match(sin_phi, flow_slope):
 
 @point
 def return_stress(stress, c_cos_phi, sin_phi, law):
-    """Return ``(xx, yy, zz, xy, plastic strain increment)`` for a trial stress ``(xx, yy, zz, xy)`` in Pa."""
+    """Return ``(xx, yy, zz, xy, plastic strain increment)`` for a trial stress; stresses in Pa."""
     xx, yy, zz, xy = stress
     ratio = plane_strain_match(sin_phi, law.flow_slope)
     eta, xi_c = ratio * sin_phi, ratio * c_cos_phi

@@ -100,7 +100,7 @@ def return_mapping(s1, s2, s3, c_cos_phi, sin_phi, law):
 
 @point
 def return_stress(stress, c_cos_phi, sin_phi, law):
-    """Return ``(xx, yy, zz, xy, plastic strain increment)`` for a trial stress ``(xx, yy, zz, xy)`` in Pa."""
+    """Return ``(xx, yy, zz, xy, plastic strain increment)`` for a trial stress; stresses in Pa."""
     s1, s2, s3 = principal_stresses(stress)
     n1, n2, n3 = return_mapping(s1, s2, s3, c_cos_phi, sin_phi, law)
     xx, yy, zz, xy = relaxed(stress, s1 - n1, s2 - n2, s3 - n3)

@@ -10,8 +10,9 @@ from solver.grid import NO_SMOOTHING, allocate_grid
 from solver.laws.mohr_coulomb import mohr_coulomb
 from solver.laws.registry import Constants
 from solver.operations import solve_momentum
+from solver.scheme import STRESS_UPDATES, Scheme
 from solver.softening import NO_SOFTENING
-from solver.step import BLOCK, STRESS_UPDATES, Scheme, accelerate, allocate_workspace, deform, spread_all
+from solver.step import BLOCK, accelerate, allocate_workspace, deform, spread_all
 from solver.transfer import spread_momentum
 
 UGIMP, B_SPLINE, LINEAR = 0.25, 0.5, 1e-6  # half lengths in cells, at four particles a cell

@@ -20,8 +20,9 @@ from solver.method import Method
 from solver.model import Model
 from solver.operations import solve_momentum
 from solver.particles import copy_particles
+from solver.scheme import scheme_of
 from solver.softening import NO_SOFTENING
-from solver.step import accelerate, advance, allocate_workspace, deform, scheme_of, spread_first
+from solver.step import accelerate, advance, allocate_workspace, deform, spread_first
 from solver.surface import Surface
 from solver.timestep import stable_step
 

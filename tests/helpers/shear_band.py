@@ -18,8 +18,8 @@ from solver.internal_length import rate_on_cells, smoothing_weights
 from solver.laws.mohr_coulomb import mohr_coulomb
 from solver.laws.registry import Constants
 from solver.method import Method
+from solver.scheme import scheme_of
 from solver.softening import Softening
-from solver.step import scheme_of
 
 PEAK, WEAK_SHARE, WEAK_WIDTH = 20e3, 0.95, 1.0  # Pa, 1, m
 YOUNG_MODULUS, POISSON_RATIO, DENSITY = 2e6, 0.35, 2000.0

@@ -8,7 +8,8 @@ from solver import observables
 from solver.constants import STANDARD_GRAVITY
 from solver.filling import ground_of
 from solver.in_situ import LOCAL_DAMPING, NotSettledError, in_situ_state, lay_geostatic_stress, unbalanced_share
-from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace
+from solver.scheme import STRESS_UPDATES, Scheme
+from solver.step import advance, allocate_workspace
 from solver.surface import Surface
 from solver.timestep import stable_step
 

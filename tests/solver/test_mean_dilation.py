@@ -13,8 +13,9 @@ from solver.laws.registry import Constants
 from solver.march import MarchEnd, march_to_rest
 from solver.operations import INTERNAL_WORK
 from solver.particles import copy_particles
+from solver.scheme import LOCKING, STRESS_UPDATES, Scheme
 from solver.softening import NO_SOFTENING
-from solver.step import LOCKING, STRESS_UPDATES, Scheme, allocate_workspace, deform, spread_first
+from solver.step import allocate_workspace, deform, spread_first
 
 MODEL = small_model()
 CURED = MODEL._replace(method=MODEL.method._replace(locking="cell-average"))

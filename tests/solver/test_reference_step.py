@@ -14,8 +14,9 @@ from solver.march import March
 from solver.method import Method
 from solver.operations import GRAVITY_WORK, INTERNAL_WORK
 from solver.particles import copy_particles
+from solver.scheme import STRESS_UPDATES, scheme_of
 from solver.softening import Strength
-from solver.step import STRESS_UPDATES, advance, allocate_workspace, scheme_of
+from solver.step import advance, allocate_workspace
 
 MODEL = small_model()
 MID_SLIDE = 0.6  # s

@@ -9,8 +9,9 @@ from solver.grid import allocate_grid
 from solver.laws.mohr_coulomb import mohr_coulomb
 from solver.laws.registry import Constants
 from solver.particles import allocate_particles
+from solver.scheme import STRESS_UPDATES, Scheme
 from solver.softening import NO_SOFTENING
-from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace, spread_all
+from solver.step import advance, allocate_workspace, spread_all
 from solver.surface import Surface
 from solver.transfer import gradient, interpolate
 

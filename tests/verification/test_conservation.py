@@ -11,8 +11,9 @@ from driver import Row, grid_without_walls, lattice
 from solver.laws.mohr_coulomb import mohr_coulomb
 from solver.laws.registry import Constants
 from solver.particles import allocate_particles
+from solver.scheme import LOCKING, STRESS_UPDATES, Scheme
 from solver.softening import Softening
-from solver.step import LOCKING, STRESS_UPDATES, Scheme, advance, allocate_workspace
+from solver.step import advance, allocate_workspace
 
 DENSITY, SIDE, SPACE, CELL = 2000.0, 4.0, 12.0, 0.5  # kg/m3, m
 SOIL = mohr_coulomb(Constants(10e6, 0.3, np.radians(5.0), Softening(5.0, is_linear=False)))

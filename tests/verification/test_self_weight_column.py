@@ -26,7 +26,8 @@ from driver import LINEAR, UGIMP, Row, divergence_row, elastic_soil, lattice, ob
 from solver.constants import STANDARD_GRAVITY
 from solver.grid import allocate_grid
 from solver.particles import allocate_particles
-from solver.step import STRESS_UPDATES, Scheme, advance, allocate_workspace
+from solver.scheme import STRESS_UPDATES, Scheme
+from solver.step import advance, allocate_workspace
 
 HEIGHT, DENSITY = 8.0, 1000.0  # m, kg/m3
 WEIGHT = DENSITY * STANDARD_GRAVITY
