@@ -54,3 +54,7 @@ def chosen_by_type(function: Any) -> Any:
     The choice is made while a kernel is compiled and costs nothing when it runs.
     """
     return overload(function, jit_options=_INLINED, strict=False)  # type: ignore[arg-type]
+
+
+# For sums that are to be the same, bit for bit, on every processor: without fastmath they are never reordered.
+exact = numba.njit(cache=True, nogil=True)

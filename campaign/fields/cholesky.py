@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 from scipy import linalg
 
@@ -17,6 +16,7 @@ from campaign.errors import SamplerError
 from campaign.fields.correlation import Array, Correlation
 from campaign.fields.samplers import refuse_large
 from campaign.storage.files import publish, temporary_name, write_atomically
+from solver._jit import exact
 
 FACTOR_FILE = "field_factor.npy"
 
@@ -132,8 +132,7 @@ def sha256(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-# Without fastmath a sum is never reordered, so that the product is bitwise the same on every rank.
-@njit(cache=True)
+@exact
 def multiply_lower(lower: NDArray[np.float64], vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Multiply each of two vectors by a lower triangular matrix, column by column as it lies in memory."""
     product = np.zeros_like(vectors)

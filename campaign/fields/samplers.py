@@ -9,12 +9,12 @@ library.
 from typing import Protocol
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 from scipy import fft, linalg
 
 from campaign.errors import SamplerError
 from campaign.fields.correlation import Array, Correlation
+from solver._jit import exact
 
 MEMORY_LIMIT = 4 * 10**9
 """Bytes that a sampler may use; as much as a Cholesky factor of 22,000 points."""
@@ -179,8 +179,7 @@ def refuse_large(n_bytes: int, what: str) -> None:
         )
 
 
-# Without fastmath a sum is never reordered, so that each product is bitwise the same on every rank.
-@njit(cache=True)
+@exact
 def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     """Multiply two matrices in the order of their inner index."""
     product = np.zeros((a.shape[0], b.shape[1]))
