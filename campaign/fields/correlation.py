@@ -1,14 +1,17 @@
-"""Autocorrelation of a soil property: which formula, how far, and in which direction."""
+"""Autocorrelation of a soil property: which formula, how far, and in which direction.
+
+A new correlation is its formula and a row in `KERNELS`. Scenes are checked by this table, so it needs NumPy alone.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin, sqrt
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
-Kernel = Callable[[Array, Array], Array]
 
 
 def exponential(u: Array, v: Array) -> Array:
@@ -26,26 +29,27 @@ def squared_exponential(u: Array, v: Array) -> Array:
     return np.asarray(np.exp(-np.square(u) - np.square(v)))
 
 
-KERNELS: dict[str, Kernel] = {
-    "exponential": exponential,
-    "separable-exponential": separable_exponential,
-    "squared-exponential": squared_exponential,
-}
+class Kernel(NamedTuple):
+    """A correlation function of the lags u, v in autocorrelation distances."""
 
-FLUCTUATION_PER_DISTANCE = {
-    "exponential": 2.0,
-    "separable-exponential": 2.0,
-    "squared-exponential": sqrt(pi),
+    formula: Callable[[Array, Array], Array]
+    fluctuation_per_distance: float  # scale of fluctuation over autocorrelation distance, along one axis
+    is_separable: bool  # whether it is a function of u times a function of v
+
+
+KERNELS = {
+    "exponential": Kernel(exponential, 2.0, is_separable=False),
+    "separable-exponential": Kernel(separable_exponential, 2.0, is_separable=True),
+    "squared-exponential": Kernel(squared_exponential, sqrt(pi), is_separable=True),
 }
+"""The correlations that a scene can name."""
 
 
 def autocorrelation_distance(scale_of_fluctuation: float, kind: str) -> float:
     """Convert a scale of fluctuation to an autocorrelation distance.
 
-    The scale of fluctuation is the integral of the correlation over a whole line along one axis:
-
-    - exponential and separable-exponential: theta = 2 L, per axis,
-    - squared-exponential: theta = sqrt(pi) L.
+    The scale of fluctuation theta is the integral of the correlation over a whole line along one axis. With the
+    autocorrelation distance L it is 2 L for both exponentials and sqrt(pi) L for the squared exponential.
 
     Parameters
     ----------
@@ -63,7 +67,7 @@ def autocorrelation_distance(scale_of_fluctuation: float, kind: str) -> float:
     -----
     Vanmarcke (1983), Random Fields: Analysis and Synthesis, section 5.1.
     """
-    return scale_of_fluctuation / FLUCTUATION_PER_DISTANCE[kind]
+    return scale_of_fluctuation / KERNELS[kind].fluctuation_per_distance
 
 
 @dataclass(frozen=True)
@@ -71,11 +75,7 @@ class Correlation:
     """Stationary anisotropic correlation in the plane of the section.
 
     With the lags turned into the axes of the soil fabric, u = (dx cos a + dy sin a) / L1 and
-    v = (dy cos a - dx sin a) / L2, the correlation is one of
-
-    - exponential: exp(-sqrt(u^2 + v^2)),
-    - separable-exponential: exp(-|u| - |v|),
-    - squared-exponential: exp(-u^2 - v^2).
+    v = (dy cos a - dx sin a) / L2, the correlation is a formula of `KERNELS` in u and v.
 
     Parameters
     ----------
@@ -97,12 +97,12 @@ class Correlation:
         x, y = np.asarray(dx, dtype=float), np.asarray(dy, dtype=float)
         u = (x * cos(self.angle) + y * sin(self.angle)) / self.horizontal
         v = (y * cos(self.angle) - x * sin(self.angle)) / self.vertical
-        return KERNELS[self.kind](u, v)
+        return KERNELS[self.kind].formula(u, v)
 
     @property
     def is_separable(self) -> bool:
         """Whether the correlation is a function of dx times a function of dy."""
-        return self.kind != "exponential" and self.angle % pi == 0.0
+        return KERNELS[self.kind].is_separable and self.angle % pi == 0.0
 
     @property
     def reach(self) -> tuple[float, float]:

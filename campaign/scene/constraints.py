@@ -1,6 +1,6 @@
 """The values a scene may take: quantities and numbers with their bounds, as annotated types for pydantic models."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import pairwise
 from math import radians
 from typing import Annotated, Any
@@ -19,6 +19,13 @@ def must(complaint: str, holds: Callable[[Any], bool]) -> AfterValidator:
         return value
 
     return AfterValidator(check)
+
+
+def one_of(names: Iterable[str]) -> AfterValidator:
+    """Refuse a text that is none of the names in a table."""
+    known = tuple(names)
+    *first, last = (f'"{name}"' for name in known)
+    return must(f"be {', '.join(first)} or {last}", known.__contains__)
 
 
 def _goes_forward(points: tuple[tuple[float, float], ...]) -> bool:

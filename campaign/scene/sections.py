@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict
 
+from campaign.fields.correlation import KERNELS
 from campaign.scene.constraints import (
     NOT_NEGATIVE,
     POSITIVE,
@@ -19,6 +20,7 @@ from campaign.scene.constraints import (
     Profile,
     RightAngle,
     must,
+    one_of,
 )
 from campaign.scene.units import Angle, Pressure, UnitWeight
 from solver.method import Basis, Locking, StressUpdate
@@ -89,7 +91,7 @@ class Soil(Section):
 class RandomField(Section):
     """The correlated fields of cohesion and friction angle; lengths in m, `angle` of the horizontal axis in rad."""
 
-    correlation: Literal["exponential", "separable-exponential", "squared-exponential"]
+    correlation: Annotated[str, one_of(KERNELS)]
     horizontal: PositiveLength
     vertical: PositiveLength
     length_kind: Literal["autocorrelation-distance", "scale-of-fluctuation"]

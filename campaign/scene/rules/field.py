@@ -2,6 +2,7 @@
 
 from math import exp, expm1, log1p, pi, sqrt
 
+from campaign.fields.correlation import KERNELS
 from campaign.scene.rules.measures import degrees
 from campaign.scene.rules.rule import Rules
 from campaign.scene.rules.soil import FRICTIONLESS
@@ -37,10 +38,11 @@ def _correlation_of_two(correlation: float, law: str) -> str | None:
 
 @RULES.on("field.sampler", "field.correlation")
 def _separable_kernel(sampler: str, correlation: str) -> str | None:
-    if sampler == "kronecker" and correlation == "exponential":
+    if sampler == "kronecker" and not KERNELS[correlation].is_separable:
+        products = " or ".join(f'"{name}"' for name, kernel in KERNELS.items() if kernel.is_separable)
         return (
-            'the "exponential" correlation is no product of a horizontal and a vertical one; '
-            'use "auto" or "circulant", or the correlation "separable-exponential"'
+            f'the "{correlation}" correlation is no product of a horizontal and a vertical one; '
+            f'use "auto" or "circulant", or the correlation {products}'
         )
     return None
 
