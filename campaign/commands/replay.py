@@ -48,8 +48,8 @@ def replay(directory: Path, realization: int) -> Path:
     """
     ground = prepare_again(directory, realization)
     path = _new_file(directory, realization)
-    peak = ground.released(realization)
-    fixed = {"peak_cohesion": peak.cohesion, "peak_friction_angle": peak.friction_angle}
+    released = ground.released(realization)
+    fixed = {row.identifier: getattr(released, row.particle_array) for row in ground.random_properties}
     with ParticleFile(path, fixed) as file:
         record = ground.simulate(realization, observe=lambda march: file.append(march.time, *state(march)))
     say(comparison(record, _recorded(directory, realization)))

@@ -55,12 +55,12 @@ class CholeskySampler:
         return CholeskySampler, self._arguments
 
     def correlate(self, noise: Array) -> Array:
-        """Turn white noise of shape (2, n) into two fields of the same shape."""
+        """Turn white noise of shape (n, points) into n fields of the same shape."""
         return np.asarray(multiply_lower(self._factor, noise))
 
-    def draw(self, rng: np.random.Generator) -> Array:
-        """Draw two independent fields, shape (2, n)."""
-        return self.correlate(rng.standard_normal((2, len(self._factor))))
+    def draw(self, rng: np.random.Generator, n: int) -> Array:
+        """Draw `n` independent fields, shape (n, points)."""
+        return self.correlate(rng.standard_normal((n, len(self._factor))))
 
 
 def cholesky_factor(correlation: Correlation, x: Array, y: Array) -> Array:
@@ -134,11 +134,11 @@ def sha256(path: Path) -> str:
 
 @exact
 def multiply_lower(lower: NDArray[np.float64], vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Multiply each of two vectors by a lower triangular matrix, column by column as it lies in memory."""
+    """Multiply each of the vectors (m, n) by a lower triangular matrix, column by column as it lies in memory."""
     product = np.zeros_like(vectors)
     for j in range(lower.shape[0]):
         column = lower[j:, j]
-        for f in range(2):
+        for f in range(vectors.shape[0]):
             # One sum at a time, over views from zero on: the compiler makes vector instructions of it.
             target, z = product[f, j:], vectors[f, j]
             for i in range(column.size):

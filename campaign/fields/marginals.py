@@ -25,17 +25,6 @@ class Lognormal:
         return np.asarray(np.exp(log(self.mean) - self.sigma**2 / 2 + self.sigma * gaussian))
 
 
-@dataclass(frozen=True)
-class Constant:
-    """A value that is the same everywhere."""
-
-    mean: float
-
-    def __call__(self, gaussian: Array) -> Array:
-        """Return the value in the place of each Gaussian one."""
-        return np.full_like(gaussian, self.mean)
-
-
 def gaussian_cross_correlation(rho: float, first: Lognormal, second: Lognormal) -> float:
     """Return the correlation of two Gaussian fields whose lognormal images have the correlation `rho`.
 

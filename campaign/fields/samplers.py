@@ -1,9 +1,9 @@
 """Standard Gaussian random fields with a prescribed correlation, on a grid, by two exact methods.
 
 Every sampler, that of `campaign.fields.cholesky` included, is a fixed linear map A of white noise with A A^T = C, the
-correlation matrix of the points, and keeps two parts apart: `correlate` applies A, `draw` feeds it. A draw is two
-independent fields. The products are summed in an order that depends on neither the number of threads nor the BLAS
-library.
+correlation matrix of the points, and keeps two parts apart: `correlate` applies A, `draw` feeds it. A draw is any
+number of independent fields, and the first of many are those of a draw of few. The products are summed in an order that
+depends on neither the number of threads nor the BLAS library.
 """
 
 from typing import Protocol
@@ -24,10 +24,10 @@ LEAST_EIGENVALUE = -1e-12
 
 
 class Sampler(Protocol):
-    """Anything that draws two independent standard Gaussian fields."""
+    """Anything that draws independent standard Gaussian fields."""
 
-    def draw(self, rng: np.random.Generator) -> Array:
-        """Draw an array of shape (2, ...), whose trailing shape is that of the sampler's points."""
+    def draw(self, rng: np.random.Generator, n: int) -> Array:
+        """Draw `n` fields, an array of shape (n, ...), whose trailing shape is that of the sampler's points."""
         ...
 
 
@@ -67,12 +67,12 @@ class KroneckerSampler:
         self.clip_mass = max(clip_x, clip_y)
 
     def correlate(self, noise: Array) -> Array:
-        """Turn white noise of shape (2, ny, nx) into two fields of the same shape."""
+        """Turn white noise of shape (n, ny, nx) into n fields of the same shape."""
         return np.stack([multiply(multiply(self._root_y, z), self._root_x) for z in noise])
 
-    def draw(self, rng: np.random.Generator) -> Array:
-        """Draw two independent fields, shape (2, ny, nx)."""
-        return self.correlate(rng.standard_normal((2, len(self._root_y), len(self._root_x))))
+    def draw(self, rng: np.random.Generator, n: int) -> Array:
+        """Draw `n` independent fields, shape (n, ny, nx)."""
+        return self.correlate(rng.standard_normal((n, len(self._root_y), len(self._root_x))))
 
 
 class CirculantSampler:
@@ -130,9 +130,10 @@ class CirculantSampler:
         field = fft.fft(strip, axis=1, workers=1)[:, :columns]
         return np.stack([field.real, field.imag])
 
-    def draw(self, rng: np.random.Generator) -> Array:
-        """Draw two independent fields, shape (2, ny, nx)."""
-        return self.correlate(rng.standard_normal((*self.torus, 2)))
+    def draw(self, rng: np.random.Generator, n: int) -> Array:
+        """Draw `n` independent fields, shape (n, ny, nx), two a transform."""
+        pairs = [self.correlate(rng.standard_normal((*self.torus, 2))) for _ in range((n + 1) // 2)]
+        return np.concatenate(pairs)[:n]
 
 
 def symmetric_root(matrix: Array) -> tuple[Array, float]:
@@ -144,7 +145,7 @@ def symmetric_root(matrix: Array) -> tuple[Array, float]:
 
 
 def smallest_torus(shape: tuple[int, int]) -> tuple[int, int]:
-    """Return the smallest periodic grid, fast to transform, on which no two points of `shape` meet around the back."""
+    """Return the smallest periodic grid, fast to transform, that is too large for any lag within `shape` to wrap."""
     rows, columns = (fft.next_fast_len(2 * n - 1) for n in shape)
     return rows, columns
 
@@ -161,12 +162,12 @@ def larger_torus(torus: tuple[int, int], correlation: Correlation) -> tuple[int,
 
 
 def circulant_eigenvalues(correlation: Correlation, torus: tuple[int, int], spacing: float) -> Array:
-    """Transform the correlation with the origin of a periodic grid, lags taken the short way around."""
+    """Return the transform of the correlation with the origin of a periodic grid; lags are the shorter ones."""
     rows, columns = torus
     # Eigenvalues, amplitudes, noise, modes and the field: eight numbers a point at the same time.
     refuse_large(64 * rows * columns, f"A circulant embedding of {spacing * columns:.0f} m x {spacing * rows:.0f} m")
     y, x = (spacing * n * fft.fftfreq(n) for n in torus)
-    # The real part is the transform of the even part: half-way around, a lag and its opposite are the same point.
+    # At half the period a lag and its opposite are the same point; the real part takes the mean of their correlations.
     return np.asarray(fft.fft2(correlation(x, y[:, None]), workers=1).real)
 
 

@@ -1,62 +1,63 @@
-"""Cohesion and friction angle as cross-correlated lognormal random fields on a grid of their own.
+"""The random soil properties of a realization as cross-correlated fields on a grid of their own.
 
 The field belongs to the ground, not to the mesh: it is drawn on a reference grid, and a particle reads it once, at its
 initial place. Realization k is therefore the same ground on every mesh. Equations are those of section 2.1 of Ma,
-Rezania and Mousavi Nezhad.
+Rezania and Mousavi Nezhad. Which properties there are says `campaign.fields.properties`.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from math import pi, sqrt
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from campaign.errors import SamplerError
-from campaign.fields.cholesky import CholeskySampler
-from campaign.fields.correlation import Array, Correlation, autocorrelation_distance
-from campaign.fields.marginals import Constant, Lognormal, gaussian_cross_correlation
-from campaign.fields.reference_grid import Mask, ReferenceGrid
-from campaign.fields.samplers import CirculantSampler, KroneckerSampler, Sampler
-from campaign.scene.sections import Cohesion, FrictionAngle, RandomField
+from campaign.fields.correlation import Array
+from campaign.fields.cross_correlation import correlated
+from campaign.fields.marginals import Lognormal
+from campaign.fields.properties import BY_NAME, PROPERTIES
+from campaign.fields.reference_grid import ReferenceGrid
+from campaign.fields.samplers import Sampler
 from campaign.seeds import BASELINE, Stream, generator
 
 if TYPE_CHECKING:
     import xarray as xr
 
-AUTOMATIC = "circulant"
-"""Sampler for any correlation and angle, and the only one without a matrix factorisation, whose last bits depend on the
-processor and the number of threads."""
-
-CELLS_PER_DISTANCE = 8
-"""Cells of the reference grid per shorter autocorrelation distance, where the scene does not say."""
-
 
 @dataclass(frozen=True)
 class Strengths:
-    """Peak strength of one realization, on the reference grid.
+    """The random properties of one realization, on the reference grid.
 
     Parameters
     ----------
     grid : ReferenceGrid
         Where the values are.
-    cohesion, friction_angle : ndarray of shape (ny, nx)
-        Cohesion [Pa] and friction angle [rad]; NaN in cells that the sampler left out as not in the ground.
+    names : tuple of str
+        Of the n properties, see `campaign.fields.properties`.
+    values : ndarray of shape (n, ny, nx)
+        In SI units; NaN in cells that the sampler left out as not in the ground.
     """
 
     grid: ReferenceGrid
-    cohesion: Array
-    friction_angle: Array
+    names: tuple[str, ...]
+    values: Array
+
+    def __getitem__(self, name: str) -> Array:
+        """Return the values of a property, shape (ny, nx)."""
+        return np.asarray(self.values[self.names.index(name)])
 
     def to_dataset(self) -> "xr.Dataset":
         """Return the fields as an xarray dataset by elevation `y` and place `x` (m)."""
         import xarray as xr
 
-        about = {"cohesion": ("Pa", "peak cohesion"), "friction_angle": ("rad", "peak friction angle")}
         fields = {
-            name: (("y", "x"), getattr(self, name), {"units": units, "long_name": long_name})
-            for name, (units, long_name) in about.items()
+            row.name: (
+                ("y", "x"),
+                self[row.name],
+                {"units": row.unit.si, "long_name": row.long_name, "symbol": row.symbol},
+            )
+            for row in (BY_NAME[name] for name in self.names)
         }
         places = {
             "x": ("x", self.grid.x, {"units": "m", "long_name": "horizontal place"}),
@@ -64,27 +65,27 @@ class Strengths:
         }
         return xr.Dataset(fields, places)
 
-    def at(self, x: Array, y: Array) -> tuple[Array, Array]:
-        """Read cohesion [Pa] and friction angle [rad] at the initial places `x`, `y` [m] of particles.
+    def at(self, x: Array, y: Array) -> dict[str, Array]:
+        """Read the properties, by name, at the initial places `x`, `y` [m] of particles; each of the shape of `x`.
 
         Raises
         ------
         ValueError
             If a place is outside the grid, or in a cell that was left out.
         """
-        cell = self.grid.index(x, y)
-        cohesion, friction_angle = self.cohesion[cell], self.friction_angle[cell]
-        if missing := np.flatnonzero(np.isnan(cohesion)).tolist():
+        row, column = self.grid.index(x, y)
+        values = self.values[:, row, column]
+        if missing := np.flatnonzero(np.isnan(values[0])).tolist():
             raise ValueError(
                 f"The place ({np.ravel(x)[missing[0]]:g} m, {np.ravel(y)[missing[0]]:g} m) is not in the ground for "
                 'which the random field was built; use the sampler "circulant", which fills the whole box.'
             )
-        return cohesion, friction_angle
+        return dict(zip(self.names, values, strict=True))
 
 
 @dataclass(frozen=True)
 class StrengthSampler:
-    """Everything that turns the identity of a realization into strengths; can be pickled.
+    """Everything that turns the identity of a realization into soil properties; can be pickled.
 
     Parameters
     ----------
@@ -93,103 +94,50 @@ class StrengthSampler:
     cells : ndarray of shape (ny, nx)
         The cells, in row order, for which `gaussian` draws values.
     gaussian : Sampler
-        Draws two independent standard Gaussian fields.
-    cohesion, friction_angle : Lognormal, Lognormal or Constant
-        Marginal distributions [Pa, rad].
-    cross_correlation : float
-        Correlation of the two Gaussian fields.
+        Draws independent standard Gaussian fields.
+    marginals : mapping
+        Distribution [SI] of each random property by name, in the order of the table of properties.
+    factor : ndarray of shape (n, n)
+        Lower Cholesky factor of the cross-correlations of the Gaussian fields.
     """
 
     grid: ReferenceGrid
     cells: NDArray[np.bool_]
     gaussian: Sampler
-    cohesion: Lognormal
-    friction_angle: Lognormal | Constant
-    cross_correlation: float
+    marginals: Mapping[str, Lognormal]
+    factor: Array
 
     def draw(self, seed: int, realization: int) -> Strengths:
-        """Draw the strengths of one realization, or the mean strengths for `BASELINE`.
+        """Draw the properties of one realization, or their means everywhere for `BASELINE`.
 
         Raises
         ------
         SamplerError
-            If a friction angle reaches 90 degrees.
+            If a value reaches the limit of its property.
         """
         if realization == BASELINE:
-            return self._strengths(self.cohesion.mean, self.friction_angle.mean)
-        first, second = self.gaussian.draw(generator(seed, Stream.FIELD, realization))
-        rho = self.cross_correlation
-        friction_angle = self.friction_angle(rho * first + sqrt(1.0 - rho**2) * second)  # eq. (4)
-        if friction_angle.max() >= pi / 2:
-            raise SamplerError(
-                f"Realization {realization} has a friction angle of {np.degrees(friction_angle.max()):.1f} degrees, "
-                "for a lognormal distribution is unbounded; lower soil.friction_angle.mean or soil.friction_angle.cov."
-            )
-        return self._strengths(self.cohesion(first), friction_angle)
+            return self._strengths([np.asarray(law.mean) for law in self.marginals.values()])
+        # Each property has a Gaussian field of its own, whichever others are random.
+        own = [place for place, row in enumerate(PROPERTIES) if row.name in self.marginals]
+        independent = self.gaussian.draw(generator(seed, Stream.FIELD, realization), own[-1] + 1)[own]
+        mixed = correlated(self.factor, independent)
+        fields = [law(field) for law, field in zip(self.marginals.values(), mixed, strict=True)]
+        for name, field in zip(self.marginals, fields, strict=True):
+            refuse_beyond_limit(name, float(field.max()), realization)
+        return self._strengths(fields)
 
-    def _strengths(self, cohesion: Array | float, friction_angle: Array | float) -> Strengths:
-        fields = np.full((2, *self.grid.shape), np.nan)
-        fields[0, self.cells], fields[1, self.cells] = np.ravel(cohesion), np.ravel(friction_angle)
-        return Strengths(self.grid, *fields)
-
-
-def strength_sampler(
-    field: RandomField,
-    cohesion: Cohesion,
-    friction_angle: FrictionAngle | None,
-    width: float,
-    height: float,
-    directory: Path | None = None,
-    soil: Mask | None = None,
-) -> StrengthSampler:
-    """Build the sampler of a scene.
-
-    Parameters
-    ----------
-    field, cohesion, friction_angle : RandomField, Cohesion, FrictionAngle
-        Sections of a scene: correlation and marginals; without a friction angle it is 0.
-    width, height : float
-        Bounding box of the ground [m], from the origin on.
-    directory : Path, optional
-        Where the Cholesky factor is kept; the other samplers keep nothing.
-    soil : callable, optional
-        Tells for coordinates x, y [m] which places are in the ground; spares the Cholesky sampler the others.
-
-    Raises
-    ------
-    SamplerError
-        If the sampler cannot draw this field.
-    """
-    correlation = correlation_of(field)
-    finest = min(correlation.horizontal, correlation.vertical)
-    grid = ReferenceGrid.covering(width, height, field.resolution or finest / CELLS_PER_DISTANCE)
-    method = AUTOMATIC if field.sampler == "auto" else field.sampler
-    cells = grid.cells_with(soil if method == "cholesky" else None)
-    gaussian = gaussian_sampler(method, correlation, grid, cells, directory)
-    first = Lognormal(cohesion.mean, cohesion.cov)
-    second = Lognormal(friction_angle.mean, friction_angle.cov) if friction_angle else Constant(0.0)
-    rho = field.cross_correlation
-    if field.cross_correlation_of == "lognormal" and isinstance(second, Lognormal):
-        rho = gaussian_cross_correlation(rho, first, second)
-    return StrengthSampler(grid, cells, gaussian, first, second, rho)
+    def _strengths(self, fields: list[Array]) -> Strengths:
+        values = np.full((len(fields), *self.grid.shape), np.nan)
+        for value, field in zip(values, fields, strict=True):
+            value[self.cells] = np.ravel(field)
+        return Strengths(self.grid, tuple(self.marginals), values)
 
 
-def correlation_of(field: RandomField) -> Correlation:
-    """Return the correlation of a scene, with its lengths as autocorrelation distances."""
-    along, across = field.horizontal, field.vertical
-    if field.length_kind == "scale-of-fluctuation":
-        along = autocorrelation_distance(along, field.correlation)
-        across = autocorrelation_distance(across, field.correlation)
-    return Correlation(field.correlation, along, across, field.angle)
-
-
-def gaussian_sampler(
-    method: str, correlation: Correlation, grid: ReferenceGrid, cells: NDArray[np.bool_], directory: Path | None
-) -> Sampler:
-    """Build the sampler of standard Gaussian fields on a grid by the name of its method."""
-    if method == "kronecker":
-        return KroneckerSampler(correlation, grid.x, grid.y)
-    if method == "circulant":
-        return CirculantSampler(correlation, grid.shape, grid.resolution)
-    x, y = np.meshgrid(grid.x, grid.y)
-    return CholeskySampler(correlation, x[cells], y[cells], directory)
+def refuse_beyond_limit(name: str, largest: float, realization: int) -> None:
+    """Raise a SamplerError if the `largest` value of a property [SI] reaches its limit."""
+    row = BY_NAME[name]
+    if largest >= row.limit:
+        raise SamplerError(
+            f"Realization {realization} has a {row.long_name} of {row.unit.show(largest)}, which must be below "
+            f"{row.unit.show(row.limit)}. A lognormal distribution is unbounded; lower {row.mean_key} or {row.cov_key}."
+        )

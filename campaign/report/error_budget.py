@@ -4,8 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from campaign.fields.properties import BY_NAME
 from campaign.results.results import Results
 from campaign.scene import Scene
+from campaign.scene.sections import RandomField
 from campaign.simulation.solver_model import softening_rate
 from campaign.statistics.intervals import Interval, failure_bounds, mean_interval, proportion_interval, std_interval
 
@@ -41,7 +43,7 @@ def modelling_choices(scene: Scene) -> dict[str, str]:
         "Method": f"{numerics.basis} basis, {numerics.stress_update} stress update, cells of {numerics.cell:g} m with "
         f"{numerics.particles_per_cell} particles, FLIP share {numerics.flip:g}",
         "Correlation": f"{field.correlation}, {kind} {field.horizontal:g} m along and {field.vertical:g} m across",
-        "Cross-correlation": _cross_correlation(scene),
+        "Cross-correlation": _cross_correlation(field),
     }
 
 
@@ -109,11 +111,12 @@ def _energy(results: Results) -> Row:
     return Row("Energy balance", name, median, largest, str(errors.size))
 
 
-def _cross_correlation(scene: Scene) -> str:
-    if scene.soil.friction_angle is None:
-        return "none: cohesion is the only random property"
-    field = scene.field
-    return f"{field.cross_correlation:g} between cohesion and friction angle ({field.cross_correlation_of} fields)"
+def _cross_correlation(field: RandomField) -> str:
+    pairs = [
+        f"{rho:g} between {BY_NAME[one].long_name} and {BY_NAME[other].long_name}"
+        for (one, other), rho in field.cross_correlations().items()
+    ]
+    return f"{', '.join(pairs)} ({field.cross_correlation_of} fields)" if pairs else "none"
 
 
 def _softening(scene: Scene) -> str:

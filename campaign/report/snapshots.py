@@ -1,6 +1,6 @@
 """Pictures of a slide on its way, for the figures; taken while the realization is simulated again."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -31,15 +31,17 @@ class ReplayedSlide:
     Parameters
     ----------
     record : Record
-    cohesion, friction_angle : array (n,)
-        Peak strength of the particles in Pa and rad.
+    soil : mapping
+        The random properties of the particles by name, each (n,) in SI.
+    raised_shares : mapping
+        Share of the particles at which a drawn peak strength was below the residual one and was raised to it, by name.
     snapshots : sequence of Snapshot
         At the times asked for that came before the end, and at the end.
     """
 
     record: Record
-    cohesion: Array
-    friction_angle: Array
+    soil: Mapping[str, Array]
+    raised_shares: Mapping[str, float]
     snapshots: Sequence[Snapshot]
 
     @property
@@ -65,8 +67,9 @@ def replay(ground: Ground, realization: int, times: Sequence[float] = ()) -> Rep
         snapshots.append(snapshot(march))
 
     record = ground.simulate(realization, observe=observe)
-    strength = ground.released(realization)
-    return ReplayedSlide(record, strength.cohesion, strength.friction_angle, snapshots)
+    released = ground.released(realization)
+    soil = {row.name: getattr(released, row.particle_array) for row in ground.random_properties}
+    return ReplayedSlide(record, soil, ground.raised_shares(realization), snapshots)
 
 
 def snapshot(march: March) -> Snapshot:

@@ -101,6 +101,12 @@ class RandomField(Section):
     sampler: Literal["auto", "kronecker", "circulant", "cholesky"] = "auto"
     resolution: PositiveLength | None = None
 
+    def cross_correlations(self) -> dict[tuple[str, str], float]:
+        """Return the cross-correlation of each pair of soil properties that is not independent."""
+        return {
+            pair: rho for pair, rho in {("cohesion", "friction_angle"): self.cross_correlation}.items() if rho != 0.0
+        }
+
 
 class Numerics(Section):
     """Mesh, scheme, time step and duration; cell in m, times in s."""

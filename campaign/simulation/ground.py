@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from campaign.errors import RefusalError
-from campaign.fields.strengths import Strengths, StrengthSampler, strength_sampler
+from campaign.fields.properties import SoilProperty, raised_to_floor, random_properties
+from campaign.fields.scene_sampler import strength_sampler
+from campaign.fields.strengths import Strengths, StrengthSampler
 from campaign.record import Quantity, Record
 from campaign.scene.scene import Scene
 from campaign.seeds import BASELINE
@@ -76,7 +78,7 @@ class Ground:
         return self.model.surface.toe_x
 
     def strengths(self, realization: int) -> "xr.Dataset":
-        """Return the peak strengths of a realization on the reference grid of the random field.
+        """Return the random soil properties of a realization on the reference grid of the random field.
 
         Parameters
         ----------
@@ -86,8 +88,8 @@ class Ground:
         Returns
         -------
         xarray.Dataset
-            `cohesion` (Pa) and `friction_angle` (rad), each (y, x), with coordinates in m; NaN outside the ground
-            where the sampler leaves it out.
+            `cohesion` (Pa), `friction_angle` (rad) and what else the scene makes random, each (y, x), with
+            coordinates in m; NaN outside the ground where the sampler leaves it out.
         """
         return self.draw(realization).to_dataset()
 
@@ -127,19 +129,35 @@ class Ground:
         """Draw the strengths of a realization on the reference grid."""
         return self.sampler.draw(self.scene.campaign.seed, realization)
 
+    @property
+    def random_properties(self) -> tuple[SoilProperty, ...]:
+        """What the scene makes random."""
+        return random_properties(self.scene)
+
     def released(self, realization: int) -> Particles:
-        """Return the in-situ state with the peak strengths of a realization; nowhere is peak below residual."""
-        within = np.minimum(self.lattice.x, self.model.surface.width)  # a wall may stand beyond by part of a cell
-        cohesion, friction_angle = self.draw(realization).at(within, self.lattice.y)
-        soil = self.scene.soil
-        least_cohesion = soil.cohesion.residual
+        """Return the in-situ state with the soil of a realization; nowhere is peak strength below residual."""
+        soil, n = self.scene.soil, self.n_particles
         least_friction_angle = soil.friction_angle.residual if soil.friction_angle else 0.0
+        values = raised_to_floor(self._drawn(realization), self.scene)
         return self.in_situ._replace(
-            cohesion=np.maximum(cohesion, least_cohesion),
-            friction_angle=np.maximum(friction_angle, least_friction_angle),
-            cohesion_residual=np.full_like(cohesion, least_cohesion),
-            friction_angle_residual=np.full_like(friction_angle, least_friction_angle),
+            **{row.particle_array: values[row.name] for row in self.random_properties},
+            cohesion_residual=np.full(n, soil.cohesion.residual),
+            friction_angle_residual=np.full(n, least_friction_angle),
         )
+
+    def raised_shares(self, realization: int) -> dict[str, float]:
+        """Return the share of particles at which a drawn peak is below the residual and is raised to it, by name."""
+        drawn = self._drawn(realization)
+        raised = raised_to_floor(drawn, self.scene)
+        return {
+            row.name: float(np.mean(raised[row.name] > drawn[row.name]))
+            for row in self.random_properties
+            if row.floor_key
+        }
+
+    def _drawn(self, realization: int) -> dict[str, Array]:
+        within = np.minimum(self.lattice.x, self.model.surface.width)  # a wall may stand beyond by part of a cell
+        return self.draw(realization).at(within, self.lattice.y)
 
 
 def prepare(scene: Scene, directory: Path | None = None) -> Ground:
@@ -173,12 +191,4 @@ def _loaded(model: Model) -> Particles:
 
 def _sampler(scene: Scene, model: Model, directory: Path | None) -> StrengthSampler:
     surface = model.surface
-    return strength_sampler(
-        scene.field,
-        scene.soil.cohesion,
-        scene.soil.friction_angle,
-        surface.width,
-        surface.top,
-        directory,
-        soil=lambda x, y: y < surface.height_at(x),
-    )
+    return strength_sampler(scene, surface.width, surface.top, directory, soil=lambda x, y: y < surface.height_at(x))

@@ -6,16 +6,16 @@ here. Realizations are independent, so each estimate comes with its standard err
 away happens by chance with a probability of 6.3e-5, one of all in the table with one in a thousand.
 """
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from driver import Row
 
-from campaign.fields.strengths import strength_sampler
+from campaign.fields.scene_sampler import strength_sampler
+from campaign.scene.scene import Scene
+from campaign.scene.sections import Cohesion, FrictionAngle, RandomField, Soil
 
-COHESION = SimpleNamespace(mean=20e3, cov=0.1)
-FRICTION = SimpleNamespace(mean=np.radians(10.0), cov=0.1)
+COHESION = Cohesion.model_construct(mean=20e3, cov=0.1)
+FRICTION = FrictionAngle.model_construct(mean=np.radians(10.0), cov=0.1)
 HORIZONTAL, VERTICAL, RESOLUTION = 20.0, 2.0, 0.5  # m
 CROSS_CORRELATION, REALIZATIONS, STANDARD_ERRORS = -0.5, 1000, 4.0
 KERNELS = {
@@ -28,20 +28,18 @@ LAGS = ((20.0, 0.0), (0.0, 2.0), (10.0, 1.0))  # m
 
 def draw_all(kernel):
     """Return cohesion and friction angle (realizations, rows, columns)."""
-    field = SimpleNamespace(
+    field = RandomField.model_construct(
         correlation=kernel,
         horizontal=HORIZONTAL,
         vertical=VERTICAL,
         length_kind="autocorrelation-distance",
-        angle=0.0,
         cross_correlation=CROSS_CORRELATION,
-        cross_correlation_of="gaussian",
-        sampler="auto",
         resolution=RESOLUTION,
     )
-    sampler = strength_sampler(field, COHESION, FRICTION, 60.0, 15.0)
+    soil = Soil.model_construct(cohesion=COHESION, friction_angle=FRICTION)
+    sampler = strength_sampler(Scene.model_construct(soil=soil, field=field), 60.0, 15.0)
     drawn = [sampler.draw(11, k) for k in range(REALIZATIONS)]
-    return np.array([field.cohesion for field in drawn]), np.array([field.friction_angle for field in drawn])
+    return np.array([field["cohesion"] for field in drawn]), np.array([field["friction_angle"] for field in drawn])
 
 
 def standard(values, marginal):

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
+from campaign.fields.properties import BY_NAME
 from campaign.record import FAILED
 from campaign.report.figures.section import MOVED, Section
 from campaign.report.figures.style import WIDTH, Illustration, letter, new_figure, upper_limit
@@ -39,31 +40,41 @@ def configurations(section: Section, slide: ReplayedSlide) -> Illustration:
 
 
 def strengths(section: Section, ground: Ground, slide: ReplayedSlide) -> Illustration:
-    """Draw the random peak strengths where the particles were at first (figure 4 of the paper)."""
-    lattice, k = ground.lattice, slide.realization
-    fields = {"cohesion (kPa)": slide.cohesion / 1e3}
-    if ground.scene.soil.friction_angle is not None:
-        fields["friction angle (°)"] = np.degrees(slide.friction_angle)
-    figure, panels = _stack(section, len(fields), colour_bars=len(fields))
-    for panel, (label, values) in zip(panels, fields.items(), strict=True):
+    """Draw the random soil properties where the particles were at first (figure 4 of the paper)."""
+    drawn, lattice, k = ground.random_properties, ground.lattice, slide.realization
+    figure, panels = _stack(section, len(drawn), colour_bars=len(drawn))
+    for panel, row in zip(panels, drawn, strict=True):
+        values = slide.soil[row.name] * row.unit.shown_per_si
         low, high = (float(np.percentile(values, share)) for share in (0.5, 99.5))
         particles = section.draw(panel, lattice.x, lattice.y, values, "cividis", (low, max(high, low + 1e-9)))
-        _colour_bar(figure, [panel], particles, label, extend="both")
-    letter(panels, ["peak cohesion", "peak friction angle"][: len(fields)])
+        _colour_bar(figure, [panel], particles, f"{row.long_name} ({row.unit.shown})", extend="both")
+    letter(panels, [row.long_name for row in drawn])
     caption = (
-        f"Peak strength of realization {k}, whose final run-out is the median of all, where the particles were before "
-        "the slide. Dark is weak."
+        f"The random soil of realization {k}, whose final run-out is the median of all, where the particles were "
+        f"before the slide. Dark is low.{_correlations(ground, slide)}{_raised(slide)}"
     )
-    if len(fields) > 1:
-        asked = ground.scene.field.cross_correlation
-        correlation = np.corrcoef(slide.cohesion, slide.friction_angle)[0, 1]
-        caption += (
-            f" Over these particles cohesion and friction angle are correlated by {correlation:.2f}; "
-            f"asked, over all realizations, was {asked:g}."
-        )
-    names = " and ".join(label.split(" (")[0] for label in fields)
+    names = _listing([row.long_name for row in drawn])
     alt = f"Maps of the slope, one above the other: {names} of realization {k}, in layers longer than high."
     return Illustration(figure, caption, alt)
+
+
+def _correlations(ground: Ground, slide: ReplayedSlide) -> str:
+    sentences = [
+        f" Over these particles {BY_NAME[one].long_name} and {BY_NAME[other].long_name} are correlated by "
+        f"{np.corrcoef(slide.soil[one], slide.soil[other])[0, 1]:.2f}; asked, over all realizations, was {asked:g}."
+        for (one, other), asked in ground.scene.field.cross_correlations().items()
+    ]
+    return "".join(sentences)
+
+
+def _raised(slide: ReplayedSlide) -> str:
+    sentences = [
+        f" At {100 * share:.2g} % of them the {BY_NAME[name].long_name} that was drawn is below the residual one, and "
+        "is raised to it."
+        for name, share in slide.raised_shares.items()
+        if share > 0.0
+    ]
+    return "".join(sentences)
 
 
 def outcomes(section: Section, slides: Mapping[str, ReplayedSlide]) -> Illustration:

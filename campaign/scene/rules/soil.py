@@ -1,7 +1,8 @@
 """Strength falls and never grows, and stays what a soil can have."""
 
-from math import expm1, log, radians, sqrt
+from math import expm1, inf, log, sqrt
 
+from campaign.fields.properties import PROPERTIES, SoilProperty
 from campaign.scene.rules.measures import degrees
 from campaign.scene.rules.rule import Rules
 
@@ -21,6 +22,8 @@ def largest_allowed_cov(mean: float, limit: float) -> float:
 
     With s^2 = ln(1 + COV^2) the extreme is mean exp(q s - s^2 / 2), q = `EXTREME_QUANTILE`; solved for s.
     """
+    if limit == inf:
+        return inf
     s = EXTREME_QUANTILE - sqrt(max(EXTREME_QUANTILE**2 - 2.0 * log(limit / mean), 0.0))
     return sqrt(expm1(s**2))
 
@@ -49,18 +52,38 @@ def _undrained_dilation(dilation: float, law: str) -> str | None:
     return None
 
 
-@RULES.on("soil.cohesion.residual", "soil.cohesion.mean")
-def _residual_cohesion(residual: float, mean: float) -> str | None:
-    if residual > mean:
-        return f"it must not exceed the mean peak cohesion, {mean / 1e3:g} kPa; soil that hardens is not modelled"
-    return None
+def _add_rules_of(row: SoilProperty) -> None:
+    """Add the rules that the table of properties asks for, one property at a time."""
+
+    def not_above_peak(floor: float, mean: float) -> str | None:
+        if floor > mean:
+            return (
+                f"it must not exceed the mean {row.long_name}, {row.unit.show(mean)}; soil that hardens is not modelled"
+            )
+        return None
+
+    def within_limit(cov: float | None, mean: float) -> str | None:
+        if cov is None:
+            return None
+        if mean <= 0.0:
+            return (
+                f"a lognormal {row.long_name} needs a mean above zero, in {row.mean_key}; raise that, or leave this out"
+            )
+        largest = largest_allowed_cov(mean, row.limit)
+        if cov >= largest:
+            return (
+                f"somewhere in a thousand realizations a lognormal {row.long_name} of mean {row.unit.show(mean)} "
+                f"would then reach {row.unit.show(row.limit)}; use less than {_rounded_down(largest)}"
+            )
+        return None
+
+    if row.floor_key:
+        RULES.on(row.floor_key, row.mean_key)(not_above_peak)
+    RULES.on(row.cov_key, row.mean_key)(within_limit)
 
 
-@RULES.on("soil.friction_angle.residual", "soil.friction_angle.mean")
-def _residual_friction_angle(residual: float, mean: float) -> str | None:
-    if residual > mean:
-        return f"it must not exceed the mean peak friction angle, {degrees(mean)}; soil that hardens is not modelled"
-    return None
+for _row in PROPERTIES:
+    _add_rules_of(_row)
 
 
 @RULES.on("soil.dilation_angle", "soil.friction_angle.residual")
@@ -69,17 +92,6 @@ def _dilation(dilation: float, residual: float) -> str | None:
         return (
             f"it must not exceed the residual friction angle, {degrees(residual)}, "
             "or softened soil would create energy; use 0 deg"
-        )
-    return None
-
-
-@RULES.on("soil.friction_angle.cov", "soil.friction_angle.mean")
-def _friction_tail(cov: float, mean: float) -> str | None:
-    largest = largest_allowed_cov(mean, radians(90.0))
-    if cov >= largest:
-        return (
-            f"somewhere in a thousand realizations a lognormal friction angle of mean {degrees(mean)} "
-            f"would then reach 90 deg; use less than {_rounded_down(largest)}"
         )
     return None
 

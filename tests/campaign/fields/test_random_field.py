@@ -2,7 +2,6 @@
 
 import pickle
 from math import exp, expm1, log, pi, radians, sqrt
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,41 +10,43 @@ from scipy import stats
 from campaign.errors import SamplerError
 from campaign.fields.marginals import Lognormal, gaussian_cross_correlation
 from campaign.fields.reference_grid import ReferenceGrid
-from campaign.fields.strengths import strength_sampler
+from campaign.fields.scene_sampler import strength_sampler
+from campaign.scene.scene import Scene
+from campaign.scene.sections import Cohesion, FrictionAngle, RandomField, Soil
 from campaign.seeds import BASELINE
 
-COHESION = SimpleNamespace(mean=20e3, cov=0.3)
-FRICTION = SimpleNamespace(mean=radians(20.0), cov=0.2)
+COHESION = Cohesion.model_construct(mean=20e3, cov=0.3)
+FRICTION = FrictionAngle.model_construct(mean=radians(20.0), cov=0.2)
 GOLDEN = [26234.497928, 18832.865449, 19053.353441]
 REALIZATIONS = 2000
 DEVIATIONS = 4.0
 """Tolerance in standard errors; a Gaussian estimate is further out with a probability of 6.3e-5."""
 
 
-def section(**changes):
-    """Return the section `field` of a scene."""
+def small_scene(cohesion=COHESION, friction_angle=FRICTION, **changes):
+    """Return what a sampler reads of a scene, in SI and without the checks of a file."""
     values = {
         "correlation": "exponential",
         "horizontal": 4.0,
         "vertical": 1.0,
         "length_kind": "autocorrelation-distance",
-        "angle": 0.0,
         "cross_correlation": -0.5,
-        "cross_correlation_of": "gaussian",
-        "sampler": "auto",
         "resolution": 0.5,
     }
-    return SimpleNamespace(**values | changes)
+    field = RandomField.model_construct(**values | changes)
+    return Scene.model_construct(
+        soil=Soil.model_construct(cohesion=cohesion, friction_angle=friction_angle), field=field
+    )
 
 
-def small_sampler(**changes):
-    return strength_sampler(section(**changes), COHESION, FRICTION, 6.0, 3.0)
+def small_sampler(*strengths, **changes):
+    return strength_sampler(small_scene(*strengths, **changes), 6.0, 3.0)
 
 
 def draws(sampler, n=REALIZATIONS):
     """Cohesion and friction angle of many realizations, each of shape (n, ny, nx)."""
     fields = [sampler.draw(7, k) for k in range(n)]
-    return np.array([field.cohesion for field in fields]), np.array([field.friction_angle for field in fields])
+    return np.array([field["cohesion"] for field in fields]), np.array([field["friction_angle"] for field in fields])
 
 
 def standard(values, marginal):
@@ -111,9 +112,8 @@ def test_autocorrelation(ensemble, lag):
 
 def test_cross_correlation_of_the_lognormal_fields():
     """Pearson correlation of c and phi themselves, strong and with large scatter. False alarm: 6.3e-5."""
-    wild = SimpleNamespace(mean=20e3, cov=0.5), SimpleNamespace(mean=radians(10.0), cov=0.5)
-    field = section(cross_correlation=-0.7, cross_correlation_of="lognormal")
-    cohesion, friction = draws(strength_sampler(field, *wild, 6.0, 3.0))
+    wild = COHESION.model_copy(update={"cov": 0.5}), FRICTION.model_copy(update={"mean": radians(10.0), "cov": 0.5})
+    cohesion, friction = draws(small_sampler(*wild, cross_correlation=-0.7, cross_correlation_of="lognormal"))
     product = (cohesion / wild[0].mean - 1.0) * (friction / wild[1].mean - 1.0) / 0.25
     assert_mean(product.mean(axis=(1, 2)), -0.7)
 
@@ -130,7 +130,7 @@ def test_gaussian_cross_correlation(cov, expected):
 def test_scale_of_fluctuation_is_twice_the_distance_of_the_exponential():
     distances = small_sampler().draw(1, 0)
     scales = small_sampler(horizontal=8.0, vertical=2.0, length_kind="scale-of-fluctuation").draw(1, 0)
-    assert np.array_equal(distances.cohesion, scales.cohesion)
+    assert np.array_equal(distances["cohesion"], scales["cohesion"])
 
 
 def test_default_resolution_has_eight_cells_in_the_shorter_distance():
@@ -138,26 +138,33 @@ def test_default_resolution_has_eight_cells_in_the_shorter_distance():
 
 
 def test_baseline_is_the_mean_everywhere():
-    cohesion, friction_angle = small_sampler().draw(7, BASELINE).at(np.array([0.1, 5.9]), np.array([2.9, 0.0]))
-    assert cohesion.tolist() == [20e3, 20e3]
-    assert friction_angle.tolist() == [radians(20.0)] * 2
+    soil = small_sampler().draw(7, BASELINE).at(np.array([0.1, 5.9]), np.array([2.9, 0.0]))
+    assert soil["cohesion"].tolist() == [20e3, 20e3]
+    assert soil["friction_angle"].tolist() == [radians(20.0)] * 2
+
+
+def test_the_dataset_says_what_each_field_is():
+    drawn = small_sampler().draw(7, 0)
+    data = drawn.to_dataset()
+    assert data.friction_angle.attrs == {"units": "rad", "long_name": "peak friction angle", "symbol": "phi"}
+    assert np.array_equal(data.cohesion.sel(x=0.75, y=1.25), drawn["cohesion"][2, 1])
 
 
 def test_realization_depends_on_seed_and_identity_alone():
     """Built again, sent to another rank, drawn in another order: bitwise the same field."""
     sampler = small_sampler()
-    first = sampler.draw(7, 3).cohesion
+    first = sampler.draw(7, 3)["cohesion"]
     sampler.draw(7, 4)
     for other in (sampler, small_sampler(), pickle.loads(pickle.dumps(sampler))):
-        assert np.array_equal(other.draw(7, 3).cohesion, first)
-    assert not np.array_equal(sampler.draw(8, 3).cohesion, first)
-    assert not np.array_equal(sampler.draw(7, 4).cohesion, first)
+        assert np.array_equal(other.draw(7, 3)["cohesion"], first)
+    assert not np.array_equal(sampler.draw(8, 3)["cohesion"], first)
+    assert not np.array_equal(sampler.draw(7, 4)["cohesion"], first)
 
 
 def test_field_is_stable():
     """Stored campaigns can be continued only while realization 0 of seed 2023 stays what it was."""
     drawn = small_sampler().draw(2023, 0)
-    assert drawn.cohesion[2, :3].round(6).tolist() == GOLDEN
+    assert drawn["cohesion"][2, :3].round(6).tolist() == GOLDEN
 
 
 @pytest.mark.parametrize("cell", [1.0, 0.5, 0.25])
@@ -169,7 +176,7 @@ def test_field_is_the_same_on_every_mesh(cell):
         x = corners + offset * cell
         y = np.full_like(x, 1.25)
         column = [int((place + 1e-9) // 0.5) for place in x]
-        assert np.array_equal(field.at(x, y)[0], field.cohesion[2, column])
+        assert np.array_equal(field.at(x, y)["cohesion"], field["cohesion"][2, column])
 
 
 def test_place_on_an_edge_reads_one_cell_whatever_its_rounding():
@@ -194,18 +201,17 @@ def test_cholesky_covers_the_ground_and_nothing_else(side, up, tmp_path):
     def ground(x, y):
         return side * (x - 3.1) + up * 0.7 * (y - 1.6) <= 0.0
 
-    sampler = strength_sampler(section(sampler="cholesky"), COHESION, FRICTION, 6.0, 3.0, tmp_path, ground)
+    sampler = strength_sampler(small_scene(sampler="cholesky"), 6.0, 3.0, tmp_path, ground)
     drawn = sampler.draw(7, 0)
     x, y = np.random.default_rng(0).uniform((0.0, 0.0), (6.0, 3.0), (5000, 2)).T
     inside = ground(x, y)
-    assert np.isfinite(drawn.at(x[inside], y[inside])).all()
+    assert np.isfinite(drawn.at(x[inside], y[inside])["friction_angle"]).all()
     with pytest.raises(ValueError, match="is not in the ground"):
         drawn.at(x[~inside], y[~inside])
 
 
 def test_friction_angle_beyond_the_vertical_is_refused():
-    steep = SimpleNamespace(mean=radians(70.0), cov=0.5)
-    sampler = strength_sampler(section(), COHESION, steep, 6.0, 3.0)
-    with pytest.raises(SamplerError, match="Realization 0 has a friction angle of"):
+    sampler = small_sampler(COHESION, FrictionAngle.model_construct(mean=radians(70.0), cov=0.5))
+    with pytest.raises(SamplerError, match="Realization 0 has a peak friction angle of"):
         [sampler.draw(7, k) for k in range(20)]
-    assert sampler.draw(7, BASELINE).friction_angle.max() < pi / 2
+    assert sampler.draw(7, BASELINE)["friction_angle"].max() < pi / 2

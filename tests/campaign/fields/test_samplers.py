@@ -82,7 +82,7 @@ def test_draw_is_the_same_after_pickling(tmp_path):
         CholeskySampler(correlation, *POINTS, tmp_path),
     ):
         sent = pickle.loads(pickle.dumps(sampler))
-        assert np.array_equal(sent.draw(np.random.default_rng(1)), sampler.draw(np.random.default_rng(1)))
+        assert np.array_equal(sent.draw(np.random.default_rng(1), 2), sampler.draw(np.random.default_rng(1), 2))
 
 
 def test_kronecker_refuses_what_is_no_product():
@@ -112,7 +112,7 @@ def test_memory_is_estimated_before_it_is_taken():
 
 
 def kept_draw(directory, correlation=KEPT):
-    return CholeskySampler(correlation, *POINTS, directory).draw(np.random.default_rng(1))
+    return CholeskySampler(correlation, *POINTS, directory).draw(np.random.default_rng(1), 2)
 
 
 def test_kept_factor_is_written_once_with_the_checksum_beside_it(tmp_path, monkeypatch):
@@ -124,7 +124,7 @@ def test_kept_factor_is_written_once_with_the_checksum_beside_it(tmp_path, monke
 
 def test_kept_factor_is_written_again_when_its_writing_was_cut_short(tmp_path):
     (tmp_path / "field_factor.npy").write_bytes(b"half of")
-    assert np.array_equal(kept_draw(tmp_path), CholeskySampler(KEPT, *POINTS).draw(np.random.default_rng(1)))
+    assert np.array_equal(kept_draw(tmp_path), CholeskySampler(KEPT, *POINTS).draw(np.random.default_rng(1), 2))
 
 
 def test_kept_factor_is_refused_when_damaged(tmp_path):

@@ -24,7 +24,7 @@ def test_undrained_ground_has_no_friction_angle(tmp_path: Path) -> None:
     assert scene.soil.law == "tresca"
     assert scene.soil.friction_angle is None
     assert modelling_choices(scene)["Soil law"] == "tresca"
-    assert modelling_choices(scene)["Cross-correlation"].startswith("none")
+    assert modelling_choices(scene)["Cross-correlation"] == "none"
 
 
 def test_a_friction_angle_given_with_undrained_strength_is_refused() -> None:
@@ -60,7 +60,7 @@ def test_undrained_strength_is_random_and_slides(tmp_path: Path) -> None:
     start = ground.released(3)
     assert np.all(start.friction_angle == 0.0)
     assert np.std(start.cohesion) > 500.0
-    np.testing.assert_array_equal(ground.strengths(3).friction_angle, 0.0)
+    assert list(ground.strengths(3)) == ["cohesion"]
     assert ground.simulate(3).values["max_displacement"][-1] > 0.1
 
 

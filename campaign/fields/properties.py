@@ -1,0 +1,143 @@
+"""The random properties of the soil, a row each: everything that draws, reads, checks or shows them follows from it.
+
+A new one is a row here and its keys in `campaign.scene.sections`, as soon as `solver.particles.Particles` has an array
+for it. Scenes are checked by this table, so it needs NumPy alone.
+"""
+
+from collections.abc import Mapping
+from math import degrees, inf, radians
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from campaign.fields.correlation import Array
+from campaign.fields.marginals import Lognormal
+
+
+class Unit(NamedTuple):
+    """The SI unit of a property, and the one in which people read it."""
+
+    si: str
+    shown: str
+    shown_per_si: float
+
+    def show(self, value: float) -> str:
+        """Write a value given in SI."""
+        return f"{value * self.shown_per_si:g} {self.shown}"
+
+
+PRESSURE = Unit("Pa", "kPa", 1e-3)
+ANGLE = Unit("rad", "deg", degrees(1.0))
+
+
+def value_of(scene: Any, key: str) -> float | None:
+    """Return the value of a dotted key of a scene, in SI; None if it, or a section of it, is left out."""
+    found = scene
+    for name in key.split("."):
+        found = None if found is None else getattr(found, name)
+    return found
+
+
+class SoilProperty(NamedTuple):
+    """A property of the soil that a scene can make random.
+
+    Parameters
+    ----------
+    name : str
+        Of its field.
+    mean_key, cov_key : str
+        Keys of the scene that hold mean and coefficient of variation. Without the latter it is the same everywhere.
+    particle_array : str
+        The array of `solver.particles.Particles` that its values at the particles become.
+    long_name, symbol : str
+        For people; the symbol is the paper's.
+    unit : Unit
+    limit : float
+        Value in SI below which it must stay everywhere.
+    floor_key : str
+        Key of the scene below whose value it is at no particle, "" without one. If that value is the mean of another
+        random property, it is the other property that counts.
+    marginal : type
+        Its distribution, made of mean and coefficient of variation.
+    """
+
+    name: str
+    mean_key: str
+    cov_key: str
+    particle_array: str
+    long_name: str
+    symbol: str
+    unit: Unit
+    limit: float = inf
+    floor_key: str = ""
+    marginal: type[Lognormal] = Lognormal
+
+    def mean(self, scene: Any) -> float:
+        """Return its mean in a scene, in SI; 0 if the scene leaves the property out."""
+        return value_of(scene, self.mean_key) or 0.0
+
+    def distribution(self, scene: Any) -> Lognormal | None:
+        """Return its distribution in a scene, in SI; None if it is the same everywhere."""
+        cov = value_of(scene, self.cov_key)
+        return None if cov is None else self.marginal(self.mean(scene), cov)
+
+    @property
+    def identifier(self) -> str:
+        """Its long name as a name of an array in a file."""
+        return self.long_name.replace(" ", "_")
+
+
+PROPERTIES = (
+    SoilProperty(
+        name="cohesion",
+        mean_key="soil.cohesion.mean",
+        cov_key="soil.cohesion.cov",
+        particle_array="cohesion",
+        long_name="peak cohesion",
+        symbol="c",
+        unit=PRESSURE,
+        floor_key="soil.cohesion.residual",
+    ),
+    SoilProperty(
+        name="friction_angle",
+        mean_key="soil.friction_angle.mean",
+        cov_key="soil.friction_angle.cov",
+        particle_array="friction_angle",
+        long_name="peak friction angle",
+        symbol="phi",
+        unit=ANGLE,
+        limit=radians(90.0),
+        floor_key="soil.friction_angle.residual",
+    ),
+)
+"""All of them. The place in this order decides which Gaussian field a property gets: a new row goes to the end."""
+
+BY_NAME = {row.name: row for row in PROPERTIES}
+
+
+def raised_to_floor(drawn: Mapping[str, Array], scene: Any) -> dict[str, Array]:
+    """Return the random properties of some places with none below its floor.
+
+    Parameters
+    ----------
+    drawn : mapping
+        Values in SI of the random properties by name, arrays of one shape; not modified.
+    scene : Scene
+        Gives the floors that are the same everywhere.
+    """
+    random = {BY_NAME[name].mean_key: values for name, values in drawn.items()}
+
+    def raised(values: Array, key: str) -> Array:
+        return np.maximum(values, random[key] if key in random else value_of(scene, key)) if key else values
+
+    return {name: raised(values, BY_NAME[name].floor_key) for name, values in drawn.items()}
+
+
+def marginals(scene: Any) -> dict[str, Lognormal]:
+    """Return the distribution of each random property of a scene by name, in the order of the table."""
+    return {row.name: law for row in PROPERTIES if (law := row.distribution(scene)) is not None}
+
+
+def random_properties(scene: Any) -> tuple[SoilProperty, ...]:
+    """Return the properties that are random in a scene, in the order of the table."""
+    return tuple(BY_NAME[name] for name in marginals(scene))
