@@ -1,7 +1,7 @@
-"""Distributions of strength parameters, and what their correlation asks of the Gaussian fields behind them."""
+"""Lognormal soil properties, and what their correlation asks of the Gaussian fields behind them."""
 
 from dataclasses import dataclass
-from math import log, log1p, sqrt
+from math import exp, expm1, log, log1p, sqrt
 
 import numpy as np
 
@@ -25,10 +25,19 @@ class Lognormal:
         return np.asarray(np.exp(log(self.mean) - self.sigma**2 / 2 + self.sigma * gaussian))
 
 
+def attainable_correlations(first: Lognormal, second: Lognormal) -> tuple[float, float]:
+    """Return the least and the largest correlation of two lognormal fields, at which the Gaussian ones have -1 and 1.
+
+    (exp(-sigma_1 sigma_2) - 1) / (COV_1 COV_2) and (exp(sigma_1 sigma_2) - 1) / (COV_1 COV_2).
+    """
+    product, scale = first.cov * second.cov, first.sigma * second.sigma
+    return (exp(-scale) - 1.0) / product, expm1(scale) / product
+
+
 def gaussian_cross_correlation(rho: float, first: Lognormal, second: Lognormal) -> float:
     """Return the correlation of two Gaussian fields whose lognormal images have the correlation `rho`.
 
     rho_G = ln(1 + rho COV_1 COV_2) / (sigma_1 sigma_2); Fenton and Griffiths (2008), Risk Assessment in Geotechnical
-    Engineering, section 6.4. It is within -1 and 1 for every pair that a scene admits.
+    Engineering, section 6.4. It is within -1 and 1 if `rho` is within `attainable_correlations`.
     """
     return log1p(rho * first.cov * second.cov) / (first.sigma * second.sigma)

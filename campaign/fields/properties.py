@@ -32,10 +32,10 @@ ANGLE = Unit("rad", "deg", degrees(1.0))
 
 def value_of(scene: Any, key: str) -> float | None:
     """Return the value of a dotted key of a scene, in SI; None if it, or a section of it, is left out."""
-    found = scene
+    found: Any = scene
     for name in key.split("."):
         found = None if found is None else getattr(found, name)
-    return found
+    return None if found is None else float(found)
 
 
 class SoilProperty(NamedTuple):
@@ -128,7 +128,8 @@ def raised_to_floor(drawn: Mapping[str, Array], scene: Any) -> dict[str, Array]:
     random = {BY_NAME[name].mean_key: values for name, values in drawn.items()}
 
     def raised(values: Array, key: str) -> Array:
-        return np.maximum(values, random[key] if key in random else value_of(scene, key)) if key else values
+        floor = random.get(key, value_of(scene, key) if key else None)
+        return values if floor is None else np.maximum(values, floor)
 
     return {name: raised(values, BY_NAME[name].floor_key) for name, values in drawn.items()}
 

@@ -7,14 +7,14 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from campaign.scene.document import Document
-from campaign.scene.rules import field, geometry, numerics, slide, soil
+from campaign.scene.rules import cross_correlation, field, geometry, numerics, slide, soil
 from campaign.scene.scene import flatten
 from campaign.scene.wording import explain, wrong_value
 
 Key = tuple[str, ...]
 
 # A cell too large breaks rules of the ground as well, and is to be read first.
-SECTIONS = (numerics, geometry, slide, soil, field)
+SECTIONS = (numerics, geometry, slide, soil, field, cross_correlation)
 
 
 def mistakes(document: Document, model: type[BaseModel], example: Document) -> list[str]:

@@ -1,10 +1,11 @@
 """The sections of a scene, frozen and checked key by key; every number in SI units."""
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, create_model
 
 from campaign.fields.correlation import KERNELS
+from campaign.fields.properties import BY_NAME
 from campaign.scene.constraints import (
     NOT_NEGATIVE,
     POSITIVE,
@@ -88,24 +89,50 @@ class Soil(Section):
     softening: Softening
 
 
+CrossCorrelation = Annotated[float, must("lie between -1 and 1, both excluded", lambda rho: -1.0 < rho < 1.0)]
+
+if TYPE_CHECKING:
+    Pairs = Section
+else:
+    # A key for each property in the table, and below it a key for each other one.
+    Partners = create_model(
+        "Partners",
+        __base__=Section,
+        __module__=__name__,
+        __doc__="Cross-correlation of a soil property with others.",
+        **dict.fromkeys(BY_NAME, (CrossCorrelation | None, None)),
+    )
+    Pairs = create_model(
+        "Pairs",
+        __base__=Section,
+        __module__=__name__,
+        __doc__="Cross-correlation of pairs of random soil properties, `cohesion.cohesion_residual = 0.5`.",
+        **{name: (Partners, Partners()) for name in BY_NAME},
+    )
+
+
 class RandomField(Section):
-    """The correlated fields of cohesion and friction angle; lengths in m, `angle` of the horizontal axis in rad."""
+    """The correlated fields of the random soil properties; lengths in m, `angle` of the horizontal axis in rad.
+
+    `cross_correlation` is that of peak cohesion and peak friction angle; `pairs` are those of others.
+    """
 
     correlation: Annotated[str, one_of(KERNELS)]
     horizontal: PositiveLength
     vertical: PositiveLength
     length_kind: Literal["autocorrelation-distance", "scale-of-fluctuation"]
-    cross_correlation: Annotated[float, must("lie between -1 and 1, both excluded", lambda rho: -1.0 < rho < 1.0)]
+    cross_correlation: CrossCorrelation
     cross_correlation_of: Literal["gaussian", "lognormal"] = "gaussian"
+    pairs: Pairs = Pairs()
     angle: RightAngle = 0.0
     sampler: Literal["auto", "kronecker", "circulant", "cholesky"] = "auto"
     resolution: PositiveLength | None = None
 
     def cross_correlations(self) -> dict[tuple[str, str], float]:
-        """Return the cross-correlation of each pair of soil properties that is not independent."""
-        return {
-            pair: rho for pair, rho in {("cohesion", "friction_angle"): self.cross_correlation}.items() if rho != 0.0
-        }
+        """Return the cross-correlation of each pair of soil properties that are not independent."""
+        pairs = {(one, other): rho for one, partners in self.pairs for other, rho in partners if rho}
+        first = {("cohesion", "friction_angle"): self.cross_correlation} if self.cross_correlation else {}
+        return first | pairs
 
 
 class Numerics(Section):

@@ -1,39 +1,12 @@
-"""The fields must exist, and their sampler be one for them."""
+"""The sampler must be one for the fields, and the grid fine enough."""
 
-from math import exp, expm1, log1p, pi, sqrt
+from math import pi
 
 from campaign.fields.correlation import KERNELS
 from campaign.scene.rules.measures import degrees
 from campaign.scene.rules.rule import Rules
-from campaign.scene.rules.soil import FRICTIONLESS
 
 RULES = Rules()
-
-
-@RULES.on(
-    "field.cross_correlation",
-    "field.cross_correlation_of",
-    "soil.cohesion.cov",
-    "soil.friction_angle.cov",
-)
-def _feasible_correlation(correlation: float, of: str, cohesion_cov: float, friction_cov: float) -> str | None:
-    """Refuse what no Gaussian pair gives: rho_G = ln(1 + rho d_c d_phi) / (s_c s_phi) must lie in (-1, 1)."""
-    product = cohesion_cov * friction_cov
-    scale = sqrt(log1p(cohesion_cov**2) * log1p(friction_cov**2))
-    lowest, highest = (exp(-scale) - 1.0) / product, expm1(scale) / product
-    if of == "lognormal" and not lowest < correlation < highest:
-        return (
-            f"lognormal fields with these coefficients of variation can only have a cross-correlation "
-            f'between {lowest:.3f} and {highest:.3f}; choose one, or set cross_correlation_of = "gaussian"'
-        )
-    return None
-
-
-@RULES.on("field.cross_correlation", "soil.law")
-def _correlation_of_two(correlation: float, law: str) -> str | None:
-    if law == FRICTIONLESS and correlation != 0.0:
-        return f'with the law "{law}" the cohesion is the only strength, with nothing to be correlated to; use 0'
-    return None
 
 
 @RULES.on("field.sampler", "field.correlation")

@@ -7,32 +7,36 @@ Check = Callable[..., str | None]
 
 
 class Rule(NamedTuple):
-    """A check on the values of some keys; a complaint is reported at the first of them."""
+    """A check on the values of some keys; a complaint is reported at the key `place`."""
 
     keys: tuple[str, ...]
     check: Check
+    place: str
 
 
 class Rules(list[Rule]):
     """The rules of one section, in the order of their complaints."""
 
-    def on(self, *keys: str) -> Callable[[Check], Check]:
-        """Add a check that takes the values of `keys` and returns a complaint, worded to follow "..., but"."""
+    def on(self, *keys: str, place: str = "") -> Callable[[Check], Check]:
+        """Add a check that takes the values of `keys` and returns a complaint, worded to follow "..., but".
+
+        The complaint is about the first of the keys, or about the key or section `place`.
+        """
 
         def add(check: Check) -> Check:
-            self.append(Rule(keys, check))
+            self.append(Rule(keys, check, place or keys[0]))
             return check
 
         return add
 
     def broken(self, values: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-        """Yield key and complaint of every broken rule whose keys all have a value.
+        """Yield place and complaint of every broken rule whose keys all have a value.
 
         Parameters
         ----------
         values
             SI values by dotted key; keys that are absent or wrong by themselves are left out.
         """
-        for keys, check in self:
+        for keys, check, place in self:
             if all(key in values for key in keys) and (complaint := check(*(values[key] for key in keys))):
-                yield keys[0], complaint
+                yield place, complaint

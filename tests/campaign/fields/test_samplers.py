@@ -85,6 +85,22 @@ def test_draw_is_the_same_after_pickling(tmp_path):
         assert np.array_equal(sent.draw(np.random.default_rng(1), 2), sampler.draw(np.random.default_rng(1), 2))
 
 
+@pytest.mark.parametrize("build", ["kronecker", "circulant", "cholesky"])
+def test_the_first_fields_of_many_are_those_of_few(build):
+    """A property that is added leaves the others what they were."""
+    correlation = Correlation("separable-exponential", 1.5, 0.6)
+    sampler = {
+        "kronecker": lambda: KroneckerSampler(correlation, X, Y),
+        "circulant": lambda: CirculantSampler(correlation, (ROWS, COLUMNS), SPACING),
+        "cholesky": lambda: CholeskySampler(correlation, *POINTS),
+    }[build]()
+    many = sampler.draw(np.random.default_rng(1), 5)
+    assert len(many) == 5
+    assert len({field.tobytes() for field in many}) == 5
+    for n in (1, 2, 3, 4):
+        assert np.array_equal(sampler.draw(np.random.default_rng(1), n), many[:n])
+
+
 def test_kronecker_refuses_what_is_no_product():
     for correlation in (Correlation("exponential", 20.0, 2.0), Correlation("squared-exponential", 20.0, 2.0, 0.1)):
         with pytest.raises(SamplerError, match='use the sampler "circulant"'):
