@@ -109,6 +109,25 @@ PROPERTIES = (
         limit=radians(90.0),
         floor_key="soil.friction_angle.residual",
     ),
+    SoilProperty(
+        name="cohesion_residual",
+        mean_key="soil.cohesion.residual",
+        cov_key="soil.cohesion.residual_cov",
+        particle_array="cohesion_residual",
+        long_name="residual cohesion",
+        symbol="c_r",
+        unit=PRESSURE,
+    ),
+    SoilProperty(
+        name="friction_angle_residual",
+        mean_key="soil.friction_angle.residual",
+        cov_key="soil.friction_angle.residual_cov",
+        particle_array="friction_angle_residual",
+        long_name="residual friction angle",
+        symbol="phi_r",
+        unit=ANGLE,
+        limit=radians(90.0),
+    ),
 )
 """All of them. The place in this order decides which Gaussian field a property gets: a new row goes to the end."""
 

@@ -48,6 +48,8 @@ RightAngle = Annotated[Angle, must("lie between -90 deg and 90 deg", lambda angl
 
 PositiveNumber = Annotated[float, POSITIVE]
 PositiveCount = Annotated[int, must("be 1 or more", lambda count: count >= 1)]
+# None is left out of a scene's identity, so that 0 is the same scene as no key at all.
+OptionalCov = Annotated[float, NOT_NEGATIVE, AfterValidator(lambda cov: cov or None)] | None
 Fraction = Annotated[float, must("lie between 0 and 1", lambda value: 0.0 <= value <= 1.0)]
 OpenFraction = Annotated[
     float, must("lie between 0 and 1, both excluded; 95 % is written 0.95", lambda value: 0.0 < value < 1.0)

@@ -12,6 +12,7 @@ from campaign.scene.constraints import (
     AcuteAngle,
     Fraction,
     OpenFraction,
+    OptionalCov,
     PositiveArea,
     PositiveCount,
     PositiveLength,
@@ -52,19 +53,24 @@ class Geometry(Section):
 
 
 class Cohesion(Section):
-    """Lognormal peak cohesion (undrained strength with the law "tresca"), and the deterministic residual one; in Pa."""
+    """Lognormal peak cohesion (undrained strength with the law "tresca"), and the residual one; in Pa.
+
+    The residual is lognormal, or the same everywhere without a `residual_cov`.
+    """
 
     mean: PositivePressure
     cov: PositiveNumber
     residual: Annotated[Pressure, NOT_NEGATIVE]
+    residual_cov: OptionalCov = None
 
 
 class FrictionAngle(Section):
-    """Lognormal peak friction angle, and the deterministic residual one; in rad."""
+    """Lognormal peak friction angle, and the residual one, lognormal or the same everywhere; in rad."""
 
     mean: AcuteAngle
     cov: PositiveNumber
     residual: Annotated[Angle, NOT_NEGATIVE]
+    residual_cov: OptionalCov = None
 
 
 class Softening(Section):

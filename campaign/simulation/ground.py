@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from campaign.errors import RefusalError
-from campaign.fields.properties import SoilProperty, raised_to_floor, random_properties
+from campaign.fields.properties import PROPERTIES, SoilProperty, raised_to_floor, random_properties
 from campaign.fields.scene_sampler import strength_sampler
 from campaign.fields.strengths import Strengths, StrengthSampler
 from campaign.record import Quantity, Record
@@ -136,14 +136,9 @@ class Ground:
 
     def released(self, realization: int) -> Particles:
         """Return the in-situ state with the soil of a realization; nowhere is peak strength below residual."""
-        soil, n = self.scene.soil, self.n_particles
-        least_friction_angle = soil.friction_angle.residual if soil.friction_angle else 0.0
-        values = raised_to_floor(self._drawn(realization), self.scene)
-        return self.in_situ._replace(
-            **{row.particle_array: values[row.name] for row in self.random_properties},
-            cohesion_residual=np.full(n, soil.cohesion.residual),
-            friction_angle_residual=np.full(n, least_friction_angle),
-        )
+        drawn = raised_to_floor(self._drawn(realization), self.scene)
+        means = {row.name: np.full(self.n_particles, row.mean(self.scene)) for row in PROPERTIES}
+        return self.in_situ._replace(**{row.particle_array: (means | drawn)[row.name] for row in PROPERTIES})
 
     def raised_shares(self, realization: int) -> dict[str, float]:
         """Return the share of particles at which a drawn peak is below the residual and is raised to it, by name."""

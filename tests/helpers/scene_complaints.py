@@ -12,6 +12,14 @@ from campaign.scene.document import Document, read_document
 from campaign.scene.sections import SceneFile
 
 EXAMPLE = read_document("ma2023")
+FRICTION = EXAMPLE.text[EXAMPLE.text.index("[soil.friction_angle]") : EXAMPLE.text.index("[soil.softening]")]
+UNDRAINED = (
+    ('law = "mohr-coulomb" ', 'law = "tresca" '),
+    (FRICTION, ""),
+    ("cross_correlation = -0.5 ", "cross_correlation = 0.0 "),
+)
+"""Changes that give ma2023 undrained strength."""
+
 SURFACE = [["0 m", "19 m"], ["20 m", "19 m"], ["35 m", "4 m"], ["75 m", "4 m"]]
 
 

@@ -6,59 +6,16 @@ from math import exp, expm1, log, pi, radians, sqrt
 import numpy as np
 import pytest
 from scipy import stats
+from soil_fields import COHESION, FRICTION, assert_mean, box_scene, draws, small_sampler, standard
 
 from campaign.errors import SamplerError
 from campaign.fields.marginals import Lognormal, gaussian_cross_correlation
 from campaign.fields.reference_grid import ReferenceGrid
 from campaign.fields.scene_sampler import strength_sampler
-from campaign.scene.scene import Scene
-from campaign.scene.sections import Cohesion, FrictionAngle, RandomField, Soil
+from campaign.scene.sections import FrictionAngle
 from campaign.seeds import BASELINE
 
-COHESION = Cohesion.model_construct(mean=20e3, cov=0.3)
-FRICTION = FrictionAngle.model_construct(mean=radians(20.0), cov=0.2)
 GOLDEN = [26234.497928, 18832.865449, 19053.353441]
-REALIZATIONS = 2000
-DEVIATIONS = 4.0
-"""Tolerance in standard errors; a Gaussian estimate is further out with a probability of 6.3e-5."""
-
-
-def small_scene(cohesion=COHESION, friction_angle=FRICTION, **changes):
-    """Return what a sampler reads of a scene, in SI and without the checks of a file."""
-    values = {
-        "correlation": "exponential",
-        "horizontal": 4.0,
-        "vertical": 1.0,
-        "length_kind": "autocorrelation-distance",
-        "cross_correlation": -0.5,
-        "resolution": 0.5,
-    }
-    field = RandomField.model_construct(**values | changes)
-    return Scene.model_construct(
-        soil=Soil.model_construct(cohesion=cohesion, friction_angle=friction_angle), field=field
-    )
-
-
-def small_sampler(*strengths, **changes):
-    return strength_sampler(small_scene(*strengths, **changes), 6.0, 3.0)
-
-
-def draws(sampler, n=REALIZATIONS):
-    """Cohesion and friction angle of many realizations, each of shape (n, ny, nx)."""
-    fields = [sampler.draw(7, k) for k in range(n)]
-    return np.array([field["cohesion"] for field in fields]), np.array([field["friction_angle"] for field in fields])
-
-
-def standard(values, marginal):
-    """Undo eq. (5), with its constants written out, to get standard Gaussian values."""
-    variance = log(1.0 + marginal.cov**2)
-    return (np.log(values) - (log(marginal.mean) - variance / 2.0)) / sqrt(variance)
-
-
-def assert_mean(per_realization, expected):
-    """Independent realizations: the mean is within 4 standard errors, which the sample itself estimates."""
-    error = np.std(per_realization, ddof=1) / sqrt(len(per_realization))
-    assert abs(np.mean(per_realization) - expected) < DEVIATIONS * error
 
 
 @pytest.fixture(scope="module", params=["exponential", "separable-exponential", "squared-exponential", "turned"])
@@ -201,7 +158,7 @@ def test_cholesky_covers_the_ground_and_nothing_else(side, up, tmp_path):
     def ground(x, y):
         return side * (x - 3.1) + up * 0.7 * (y - 1.6) <= 0.0
 
-    sampler = strength_sampler(small_scene(sampler="cholesky"), 6.0, 3.0, tmp_path, ground)
+    sampler = strength_sampler(box_scene(sampler="cholesky"), 6.0, 3.0, tmp_path, ground)
     drawn = sampler.draw(7, 0)
     x, y = np.random.default_rng(0).uniform((0.0, 0.0), (6.0, 3.0), (5000, 2)).T
     inside = ground(x, y)

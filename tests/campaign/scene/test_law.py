@@ -4,18 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scene_complaints import EXAMPLE, complaint, complaints, written
+from scene_complaints import FRICTION, UNDRAINED, complaint, complaints, written
 
 from campaign.report.error_budget import modelling_choices
 from campaign.scene import load_scene
 from campaign.simulation.ground import prepare
 
-FRICTION = EXAMPLE.text[EXAMPLE.text.index("[soil.friction_angle]") : EXAMPLE.text.index("[soil.softening]")]
-UNDRAINED = (
-    ('law = "mohr-coulomb" ', 'law = "tresca" '),
-    (FRICTION, ""),
-    ("cross_correlation = -0.5 ", "cross_correlation = 0.0 "),
-)
 COARSE = ("numerics.cell=2 m", "numerics.end_time=1 s")
 
 
