@@ -1,6 +1,6 @@
 """Strength falls and never grows, and stays what a soil can have."""
 
-from math import expm1, inf, log, sqrt
+from math import exp, expm1, inf, log, log1p, sqrt
 
 from campaign.fields.properties import PROPERTIES, SoilProperty
 from campaign.scene.rules.measures import degrees
@@ -26,6 +26,12 @@ def largest_allowed_cov(mean: float, limit: float) -> float:
         return inf
     s = EXTREME_QUANTILE - sqrt(max(EXTREME_QUANTILE**2 - 2.0 * log(limit / mean), 0.0))
     return sqrt(expm1(s**2))
+
+
+def least_value(mean: float, cov: float) -> float:
+    """Return the value below which a lognormal field is as rarely as it is above its extreme one."""
+    s = sqrt(log1p(cov**2))
+    return mean * exp(-EXTREME_QUANTILE * s - s**2 / 2.0)
 
 
 @RULES.on("soil.friction_angle", "soil.law")
@@ -86,11 +92,12 @@ for _row in PROPERTIES:
     _add_rules_of(_row)
 
 
-@RULES.on("soil.dilation_angle", "soil.friction_angle.residual")
-def _dilation(dilation: float, residual: float) -> str | None:
-    if dilation > residual:
+@RULES.on("soil.dilation_angle", "soil.friction_angle.residual", "soil.friction_angle.residual_cov")
+def _dilation(dilation: float, residual: float, cov: float | None) -> str | None:
+    least = residual if cov is None else least_value(residual, cov)
+    if dilation > least:
         return (
-            f"it must not exceed the residual friction angle, {degrees(residual)}, "
+            f"it must not exceed the {'' if cov is None else 'least '}residual friction angle, {degrees(least)}, "
             "or softened soil would create energy; use 0 deg"
         )
     return None

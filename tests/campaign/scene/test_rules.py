@@ -66,6 +66,13 @@ def test_the_extreme_quantile_is_rare_in_a_field() -> None:
     assert 10.0 * exp(EXTREME_QUANTILE * s - s**2 / 2.0) == pytest.approx(90.0)
 
 
+def test_dilation_is_within_the_least_residual_friction_angle() -> None:
+    """5 deg exp(-5.5 s - s^2 / 2), s^2 = ln(1 + 0.2^2), is 1.65 deg."""
+    scatter = "soil.friction_angle.residual_cov=0.2"
+    assert "the least residual friction angle, 1.64" in complaint(scatter, "soil.dilation_angle=2 deg")
+    load_scene("ma2023", [scatter, "soil.dilation_angle=1.6 deg"])
+
+
 def test_what_counts_as_a_slide_must_suit_the_height() -> None:
     assert "slide.displaced" in complaint("slide.displaced=2 m")
     assert "a slope of 15 m can fail without moving that far" in complaint("slide.failed=15 m")
