@@ -5,30 +5,13 @@ vectorise the loops as a whole. ``inlined`` compiles operations on a block of pa
 one point, which stay plain Python outside kernels.
 """
 
-import hashlib
-import os
-import tempfile
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
 import numba
 from numba.extending import overload, register_jitable
 
-
-def _cache_directory() -> Path:
-    """Return a node-local compile cache that belongs to exactly this source of ``solver``.
-
-    Numba's cache does not notice an edit in a callee of another file, so the directory is keyed by all sources.
-    """
-    digest = hashlib.sha256()
-    home = Path(__file__).parent
-    for source in sorted(home.rglob("*.py")):
-        digest.update(f"{source.relative_to(home)}\n".encode() + source.read_bytes())
-    user = os.environ.get("USER") or str(os.getuid())
-    return Path(tempfile.gettempdir()) / f"runout-solver-{user}" / digest.hexdigest()[:16]
-
-
-numba.config.CACHE_DIR = os.environ.get("NUMBA_CACHE_DIR") or str(_cache_directory())  # type: ignore[attr-defined]
+from solver.compile_cache import compile_cache
 
 _FLAGS: dict[str, Any] = {
     # Sums may be reordered and fused, which vectorises them. NaN and infinity keep their meaning, because the guards
@@ -43,8 +26,19 @@ _FLAGS: dict[str, Any] = {
 }
 _INLINED = {"forceinline": True, **_FLAGS}
 
-kernel = numba.njit(**_FLAGS)
-inlined = numba.njit(**_INLINED)
+
+def _compiled(**flags: Any) -> Callable[[Callable[..., Any]], Any]:
+    """Return a decorator that compiles with these flags."""
+
+    def decorate(function: Callable[..., Any]) -> Any:
+        with compile_cache():
+            return numba.njit(**flags)(function)
+
+    return decorate
+
+
+kernel = _compiled(**_FLAGS)
+inlined = _compiled(**_INLINED)
 point = register_jitable(**_INLINED)
 
 
@@ -57,4 +51,4 @@ def chosen_by_type(function: Any) -> Any:
 
 
 # For sums that are to be the same, bit for bit, on every processor: without fastmath they are never reordered.
-exact = numba.njit(cache=True, nogil=True)
+exact = _compiled(cache=True, nogil=True)

@@ -13,10 +13,11 @@ README = Path(__file__).parents[2] / "README.md"
 
 STATE = """
 import os, signal, sys, threading
+import numba
 def state():
     handlers = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGUSR1)]
     environment = {key: value for key, value in os.environ.items() if key != "HDF5_PLUGIN_PATH"}  # netCDF4 sets it
-    return handlers, sys.excepthook, threading.excepthook, environment
+    return handlers, sys.excepthook, threading.excepthook, environment, numba.config.CACHE_DIR
 before = state()
 """
 
