@@ -1,6 +1,7 @@
 """Compiled code is read from a directory that nobody else can write to."""
 
 import os
+import tempfile
 from pathlib import Path
 
 import numba
@@ -8,6 +9,12 @@ import pytest
 
 import solver.step  # noqa: F401  -- whatever it sets must not stay
 from solver.compile_cache import compile_cache, private_directory
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path, monkeypatch):
+    """Fresh directories are made where the test leaves nothing behind."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
 
 
 def test_a_new_directory_is_private(tmp_path):
