@@ -10,6 +10,15 @@ def duration(seconds: float) -> str:
     return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
 
 
+def data_size(n_bytes: float) -> str:
+    """Return an amount of data rounded to its size, "12 MB", "3.5 GB"."""
+    units = ["kB", "MB", "GB", "TB"]
+    size, unit = n_bytes / 1e3, units.pop(0)
+    while size >= 999.5 and units:
+        size, unit = size / 1e3, units.pop(0)
+    return f"{size:.2g} {unit}" if size < 99.5 else f"{size:,.0f} {unit}" if size < 1e6 else f"{size:.2g} {unit}"
+
+
 def clock(seconds: float) -> str:
     """Return a length of time as hours, minutes and seconds, "0:02:05"."""
     return str(timedelta(seconds=int(seconds)))

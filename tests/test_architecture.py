@@ -116,6 +116,6 @@ def test_no_import_runs_upwards(module: str):
 
 def test_a_scene_is_validated_without_the_libraries_that_load_slowly():
     """`campaign validate` is to answer at once; Numba, SciPy and xarray take half a second each."""
-    below = floors_below("campaign.scene.cost") | floors_below("campaign.scene.sections")
+    below = floors_below("campaign.scene.foresight") | floors_below("campaign.scene.outlook")
     loaded = set().union(*(top_levels(MODULES[name]) for name in below))
     assert not loaded & {"numba", "scipy", "xarray", "matplotlib", "mpi4py"}

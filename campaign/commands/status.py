@@ -1,62 +1,25 @@
-"""`campaign status`: how a campaign stands, from its directory alone, while it runs or after."""
+"""`campaign status`: how a campaign stands."""
 
-import time
+import argparse
 from pathlib import Path
-from typing import Any
 
-from campaign.running.progress import state_line
-from campaign.statistics.convergence import StoppingRule
-from campaign.statistics.tally import Tally
-from campaign.storage import manifest
-from campaign.storage.layout import HALF_CELL, RESULTS
-from campaign.storage.lock import DirectoryLock
-from campaign.storage.record_store import RecordStore
-from campaign.terminal import say
+from campaign.exit_codes import ExitCode
 
-REFRESH = 5.0
-"""Seconds between two looks of `--watch`."""
+HELP = "how a campaign stands, while it runs or after"
 
 
-def status(directory: Path) -> str:
-    """Return the state of the campaign in `directory` as text.
-
-    Raises
-    ------
-    RefusalError
-        When there is no campaign.
-    """
-    about = manifest.read(directory)
-    tally, damaged = _tally(directory, about["campaign"])
-    lines = [f"{about['title']}: {_state(directory, about)}", f"  {state_line(tally)}"]
-    lines += [f"  {sentence}" for sentence in damaged]
-    if repeated := len(RecordStore(directory / HALF_CELL).finished()):
-        lines.append(f"  {repeated} repeated with half the cell, for the discretisation error")
-    results = directory / RESULTS
-    return "\n".join([*lines, f"  {results}" if results.exists() else "  no results.nc yet"])
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument("directory", metavar="DIR", type=Path)
+    parser.add_argument("--watch", action="store_true", help="again and again, until it ends")
 
 
-def watch(directory: Path) -> None:
-    """Print the state again and again until the campaign is at rest."""
-    say(status(directory))
-    while DirectoryLock(directory).is_held():
-        time.sleep(REFRESH)
-        say(status(directory))
+def carry_out(options: argparse.Namespace) -> ExitCode:
+    """Print the state of the campaign."""
+    from campaign.running.standing import status, watch
 
-
-def _state(directory: Path, about: dict[str, Any]) -> str:
-    if DirectoryLock(directory).is_held():
-        start = about["starts"][-1]
-        return f"running on {start['ranks']} ranks since {start['at']}"
-    if about["end"] is None:
-        return "killed; give the same command again to continue"
-    return str(about["end"]["verdict"])
-
-
-def _tally(directory: Path, wanted: dict[str, Any]) -> tuple[Tally, list[str]]:
-    """Return the account of the records on disk, and a sentence for each file that cannot be read."""
-    rule = StoppingRule(**{name: wanted[name] for name in StoppingRule.__dataclass_fields__})
-    tally = Tally(wanted["realizations"], rule, wanted["max_failed_fraction"])
-    summaries, damaged = RecordStore(directory).summaries()
-    for summary in summaries.values():
-        tally.add(summary)
-    return tally, damaged
+    if options.watch:
+        watch(options.directory)
+    else:
+        print(status(options.directory))
+    return ExitCode.DONE

@@ -1,7 +1,15 @@
 """`campaign --version`: what takes part in a result."""
 
-from campaign.running.mpi_library import mpi_library
-from campaign.storage.provenance import library_versions, source_hashes
+import argparse
+
+
+class PrintVersion(argparse.Action):
+    """Prints the versions, which takes half a second to find out, only where they are asked for."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        """Print them and end."""
+        print(version())
+        parser.exit()
 
 
 def version() -> str:
@@ -9,6 +17,8 @@ def version() -> str:
     import h5py
 
     import campaign
+    from campaign.running.mpi_library import mpi_library
+    from campaign.storage.provenance import library_versions, source_hashes
 
     libraries = library_versions()
     sources = source_hashes()

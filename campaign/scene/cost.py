@@ -1,8 +1,9 @@
-"""What a campaign will cost, from its scene alone."""
+"""What a campaign will cost in time and memory, from its scene alone."""
+
+from math import ceil
 
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
-from campaign.terminal import duration
 from solver.constants import STANDARD_GRAVITY
 from solver.elastic import bulk_modulus, p_wave_speed, shear_modulus
 from solver.timestep import stable_step
@@ -19,18 +20,24 @@ INTERNAL_LENGTH_COST = 1.25
 HALF_CELL_COST = 8
 """Of a realization with half the cell, relative to one: four times the particles, twice the steps."""
 
+PARTICLE_BYTES = 1000
+"""Of memory a particle takes while a realization runs: 750 measured with the grid under it, and room for records."""
 
-def cost(scene: Scene) -> str:
-    """Return the estimated size and time of a scene's campaign; at most, since slides rest before the end."""
-    particles, steps = particle_count(scene), step_count(scene)
-    seconds = realization_seconds(scene)
-    wanted = scene.campaign
-    total = seconds * (wanted.realizations + HALF_CELL_COST * wanted.discretisation_pairs)
-    return (
-        f"about {particles:,} particles and {steps:,.0f} steps: at most {duration(seconds)} a realization and "
-        f"{total / 3600:.1f} core-hours for all {wanted.realizations}, with {wanted.discretisation_pairs} repeated at "
-        f"half the cell, at {speed(scene) / 1e6:.2g} million particle-steps a second"
-    )
+SERIES, SCALARS = 3, 16
+"""Numbers of a record that there are at every time, and once; a byte a particle says whether it has moved."""
+
+RANK_BYTES = 300e6
+"""Of memory a rank takes without any particle, for Python and its libraries."""
+
+
+def core_seconds(scene: Scene) -> float:
+    """Return the estimated CPU time of the whole campaign [s]; at most, since slides rest before the end."""
+    return realization_seconds(scene) * (scene.campaign.realizations + HALF_CELL_COST * pairs(scene))
+
+
+def pairs(scene: Scene) -> int:
+    """Return how many realizations are repeated with half the cell."""
+    return min(scene.campaign.discretisation_pairs, scene.campaign.realizations)
 
 
 def realization_seconds(scene: Scene) -> float:
@@ -50,14 +57,35 @@ def particle_count(scene: Scene) -> int:
     return round(surface_of(scene.geometry).area / scene.numerics.cell**2 * scene.numerics.particles_per_cell)
 
 
-def step_count(scene: Scene) -> float:
-    """Return the approximate number of time steps until the end."""
-    return scene.numerics.end_time / time_step(scene)
+def step_count(scene: Scene) -> int:
+    """Return the approximate number of time steps until the end; every output interval takes whole steps."""
+    return output_count(scene) * ceil(scene.numerics.output_interval / time_step(scene))
+
+
+def output_count(scene: Scene) -> int:
+    """Return the number of output intervals until the end."""
+    return ceil(scene.numerics.end_time / scene.numerics.output_interval)
 
 
 def time_step(scene: Scene) -> float:
-    """Return the time step of ground at rest [s]."""
+    """Return the longest stable time step of ground at rest [s]."""
     constants = scene.soil.young_modulus, scene.soil.poisson_ratio
     density = scene.soil.unit_weight / STANDARD_GRAVITY
     wave_speed = p_wave_speed(bulk_modulus(*constants), shear_modulus(*constants), density)
     return stable_step(scene.numerics.courant, scene.numerics.cell, wave_speed, 0.0)
+
+
+def rank_bytes(scene: Scene) -> float:
+    """Return the memory that a rank takes [bytes], without its random field."""
+    return RANK_BYTES + PARTICLE_BYTES * particle_count(scene)
+
+
+def dataset_bytes(scene: Scene) -> float:
+    """Return the size of the results [bytes], all of which rank 0 holds when it writes them."""
+    return float(scene.campaign.realizations * record_bytes(scene))
+
+
+def record_bytes(scene: Scene) -> int:
+    """Return the size of one record [bytes], whose series, surface and particles outgrow all else."""
+    columns = ceil(surface_of(scene.geometry).width / scene.numerics.cell)
+    return 8 * (SERIES * (1 + output_count(scene)) + columns + SCALARS) + particle_count(scene)

@@ -23,6 +23,7 @@ COARSE = (28, 28, 10)  # places on the surface where circles begin, where they e
 FINE = 11  # the same three, in the neighbourhood of the best
 REFINEMENTS = 8
 ITERATIONS = 15
+DEPTHS = 200  # places at which the depth of a circle is measured
 
 
 class SlipCircle(NamedTuple):
@@ -35,9 +36,27 @@ class SlipCircle(NamedTuple):
     entry: float  # m, where it leaves the ground surface uphill
     exit: float  # m, and downhill
 
+    @property
+    def lowest(self) -> float:
+        """Least elevation in m, of the arc between its two ends."""
+        return float(_lowest(*(np.array(number) for number in (self.x, self.y, self.radius, self.entry, self.exit))))
+
+    def depth(self, surface: Surface) -> float:
+        """Return its greatest depth in m below the surface."""
+        x = np.linspace(self.entry, self.exit, DEPTHS, dtype=np.float64)
+        return float(np.max(surface.height_at(x) - self.elevation(x)))
+
+    def elevation(self, x: Array) -> Array:
+        """Return the elevation in m of the arc at places between its ends."""
+        return np.asarray(self.y - np.sqrt(np.maximum(self.radius**2 - (x - self.x) ** 2, 0.0)))
+
+
+NO_CIRCLE = SlipCircle(np.inf, np.nan, np.nan, np.nan, np.nan, np.nan)
+"""What there is where nothing drives a slide, or nothing resists it."""
+
 
 def critical_circle(surface: Surface, cohesion: float, friction_angle: float, unit_weight: float) -> SlipCircle:
-    """Return the circle with the least factor of safety, slides towards +x.
+    """Return the circle with the least factor of safety, slides towards +x; `NO_CIRCLE` if there is none.
 
     Parameters
     ----------
@@ -60,11 +79,26 @@ def critical_circle(surface: Surface, cohesion: float, friction_angle: float, un
             for value, step, (low, high) in zip(circle, steps, limits, strict=True)
         ]
         steps = [4.0 * step / (FINE - 1) for step in steps]
+    if not np.isfinite(factors[best]):
+        return NO_CIRCLE
     a, b, s = circle
     centre_x, centre_y, radius = _circles(surface, a[None], b[None], s[None])
     return SlipCircle(
         float(factors[best]), float(centre_x[0]), float(centre_y[0]), float(radius[0]), float(a), float(b)
     )
+
+
+def factor_on(
+    circle: SlipCircle, surface: Surface, cohesion: float, friction_angle: float, unit_weight: float
+) -> float:
+    """Return the factor of safety of a given circle for another strength, in Pa and rad."""
+    width = (circle.exit - circle.entry) / SLICES
+    x = np.linspace(circle.entry, circle.exit, SLICES, endpoint=False, dtype=np.float64) + 0.5 * width
+    thickness = np.maximum(surface.height_at(x) - circle.elevation(x), 0.0)
+    sine = (circle.x - x) / circle.radius
+    weight, cosine = unit_weight * width * thickness, np.sqrt(1.0 - sine**2)
+    force = np.full(SLICES, cohesion * width)
+    return float(_bishop(weight[None], sine[None], cosine[None], force[None], np.tan(friction_angle))[0])
 
 
 def factors_of_safety(
@@ -99,7 +133,7 @@ def factors_of_safety(
         cosine = np.sqrt(1.0 - sine**2)
         thickness = surface.height_at(x) - (centre_y[:, None] - radius[:, None] * cosine)
         is_arc = centre_y >= surface.height_at(entry)  # else the arc would overhang
-        is_arc &= centre_y - radius >= 0.0
+        is_arc &= _lowest(centre_x, centre_y, radius, entry, exit_) >= 0.0
         is_arc &= np.all(thickness >= 0.0, axis=1)
     weight = unit_weight * thickness * width[:, None]
     factor[np.flatnonzero(is_possible)[is_arc]] = _bishop(
@@ -119,6 +153,12 @@ def _circles(surface: Surface, entry: Array, exit_: Array, sagitta: Array) -> tu
         0.5 * (top + bottom) + rise * (exit_ - entry),
         radius,
     )
+
+
+def _lowest(centre_x: Array, centre_y: Array, radius: Array, entry: Array, exit_: Array) -> Array:
+    """Return the least elevation of arcs between their ends."""
+    aside = np.clip(centre_x, entry, exit_) - centre_x
+    return np.asarray(centre_y - np.sqrt(np.maximum(radius**2 - aside**2, 0.0)))
 
 
 def _bishop(weight: Array, sine: Array, cosine: Array, cohesive_force: Array, tangent: float) -> Array:

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from campaign.commands.status import status
+from campaign.running.standing import status
 from campaign.storage.lock import DirectoryLock
 
 MPIRUN = Path(sys.prefix) / "bin" / "mpirun"

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from records import GROUND, make_record
 
-from campaign.commands.status import status
 from campaign.record import summarize
 from campaign.results import dataset
 from campaign.running.level import Level
+from campaign.running.standing import status
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
 from campaign.storage import manifest, pack_format, packs, record_format

@@ -7,12 +7,12 @@ import pytest
 import xarray as xr
 from records import GROUND, SIZES, assert_same, make_record
 
-from campaign.commands.status import status
 from campaign.errors import DamagedRecordError, RefusalError
 from campaign.record import Record, Status
 from campaign.results import dataset
 from campaign.results.results import open_results
 from campaign.running.level import Level
+from campaign.running.standing import status
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
 from campaign.simulation.quantities import QUANTITIES

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from small_campaign import run, small_scene
 
-from campaign.commands import replay as replaying
-from campaign.commands.replay import comparison, replay
 from campaign.errors import RefusalError
 from campaign.record import Status
+from campaign.results import replay as replaying
+from campaign.results.replay import comparison, replay
 from campaign.seeds import BASELINE
 from campaign.storage.record_store import RecordStore
 from campaign.storage.vtkhdf import ParticleFile

@@ -1,0 +1,120 @@
+"""The first look at a scene as text."""
+
+from textwrap import fill
+
+from campaign.fields.field_size import FieldSize
+from campaign.scene import Scene
+from campaign.scene.cost import (
+    core_seconds,
+    dataset_bytes,
+    pairs,
+    particle_count,
+    rank_bytes,
+    realization_seconds,
+    speed,
+    step_count,
+    time_step,
+)
+from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, FirstLook
+from campaign.scene.limit_equilibrium import SlipCircle
+from campaign.scene.outlook import outlook
+from campaign.terminal import data_size, duration
+
+WIDTH = 100
+MARGIN = 20
+"""Characters of a line, and where its text begins behind the heading."""
+
+
+def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
+    """Return what is known of a scene before it is run, a paragraph for each matter."""
+    paragraphs = {
+        "ground": _ground(look),
+        "toe": _toe(scene, look),
+        "factor of safety": _factors(look),
+        "what to expect": outlook(look),
+        "time": _time(scene, look),
+        "mesh": _mesh(scene),
+        "random field": _field(size),
+        "cost": _cost(scene),
+        "memory": f"About {data_size(rank_bytes(scene) + size.least)} a rank; the results take "
+        f"{data_size(dataset_bytes(scene))}.",
+    }
+    lines = [_paragraph(heading, text) for heading, text in paragraphs.items()]
+    return "\n".join([f"{scene.title}: a valid scene.", *lines])
+
+
+def _paragraph(heading: str, text: str) -> str:
+    return fill(text, WIDTH, initial_indent=f"  {heading}".ljust(MARGIN), subsequent_indent=" " * MARGIN)
+
+
+def _ground(look: FirstLook) -> str:
+    surface = look.surface
+    return (
+        f"{surface.width:.4g} m wide, {surface.top:.4g} m high, {surface.area:,.4g} m2; the slope rises "
+        f"{look.height:.4g} m above its toe."
+    )
+
+
+def _toe(scene: Scene, look: FirstLook) -> str:
+    x, y = look.surface.toe
+    if scene.geometry.toe is not None:
+        how = "as given"
+    elif scene.geometry.slope is not None:
+        how = "the foot of the slope"
+    else:
+        how = "the foot of the steepest face; geometry.toe can say otherwise"
+    return f"At x = {x:.4g} m, elevation {y:.4g} m: {how}."
+
+
+def _factors(look: FirstLook) -> str:
+    mean = f"{_factor(look.peak)} with the mean peak strength{_circle(look, look.peak)}"
+    if look.residual is None:
+        return f"{mean} (Bishop)."
+    same = look.peak is not None and abs(look.peak.entry - look.residual.entry) < 0.02 * look.height
+    where = ", nearly the same circle" if same else _circle(look, look.residual)
+    return f"{mean}; {_factor(look.residual)} with the residual strength{where} (Bishop)."
+
+
+def _factor(circle: SlipCircle | None) -> str:
+    return "None" if circle is None else f"{circle.factor:.2f}" if circle.factor < 100 else f"{circle.factor:.3g}"
+
+
+def _circle(look: FirstLook, circle: SlipCircle | None) -> str:
+    if circle is None:
+        return ""
+    depth = circle.depth(look.surface)
+    return f" on a circle from x = {circle.entry:.3g} m to {circle.exit:.3g} m, at most {depth:.2g} m deep"
+
+
+def _time(scene: Scene, look: FirstLook) -> str:
+    first, last = SHORTEST_SLIDE * look.time_scale, LONGEST_SLIDE * look.time_scale
+    numerics = scene.numerics
+    ramp = f" Gravity rises for {numerics.ramp_time:g} s before." if numerics.gravity == "ramp" else ""
+    return (
+        f"A slide comes to rest after 5 to 8 sqrt(H / g), here {first:.2g} to {last:.2g} s.{ramp} The run ends at "
+        f"{numerics.end_time:g} s."
+    )
+
+
+def _mesh(scene: Scene) -> str:
+    particles, steps = particle_count(scene), step_count(scene)
+    return (
+        f"About {particles:,} particles in cells of {scene.numerics.cell:g} m, and {steps:,} steps of at most "
+        f"{1e3 * time_step(scene):.2g} ms."
+    )
+
+
+def _field(size: FieldSize) -> str:
+    rows, columns = size.shape
+    return (
+        f"{columns:,} x {rows:,} points, {size.resolution:g} m apart; {data_size(size.least)} or more for its sampler."
+    )
+
+
+def _cost(scene: Scene) -> str:
+    hours = core_seconds(scene) / 3600.0
+    return (
+        f"At most {duration(max(realization_seconds(scene), 1.0))} a realization, and "
+        f"{f'{hours:.2g}' if hours < 99.5 else f'{hours:,.0f}'} core-hours for all {scene.campaign.realizations:,}, "
+        f"with {pairs(scene):,} repeated at half the cell, at {speed(scene) / 1e6:.2g} million particle-steps a second."
+    )

@@ -1,0 +1,64 @@
+"""`campaign run`: run a campaign, or continue it."""
+
+import argparse
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from campaign.commands.scene_options import add_scene, read_scene, scene_directory
+from campaign.exit_codes import ExitCode
+from campaign.running.launcher import SIZES
+
+if TYPE_CHECKING:
+    from campaign.scene import Scene
+
+HELP = "run a campaign, or continue it"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    add_scene(parser)
+    parser.add_argument(
+        "--out", metavar="DIR", type=Path, help="results directory (default: DIR if that is given, or campaign-NAME)"
+    )
+    parser.add_argument("--allow-drift", action="store_true", help="continue what another version of the solver began")
+
+
+def carry_out(options: argparse.Namespace) -> ExitCode:
+    """Run the campaign on all ranks.
+
+    Raises
+    ------
+    CampaignError
+        When the scene is refused and no launcher waits for this process.
+    """
+    if was_launched():  # other ranks wait for this one in MPI, and only rank 0 may read the scene
+        return _run_on_ranks(options, None)
+    return _run_on_ranks(options, _scene_that_can_run(options))
+
+
+def was_launched() -> bool:
+    """Whether this process is one of several, or was started by mpirun or srun."""
+    return any(name in os.environ for name in SIZES)
+
+
+def _scene_that_can_run(options: argparse.Namespace) -> "Scene":
+    from campaign.commands.affordable import refuse_unaffordable
+
+    scene = read_scene(options)
+    refuse_unaffordable(scene)
+    return scene
+
+
+def _run_on_ranks(options: argparse.Namespace, scene: "Scene | None") -> ExitCode:
+    from campaign.report.page import write_report
+    from campaign.running.mpi import run_on_ranks
+    from campaign.simulation.ground import prepare
+
+    return run_on_ranks(
+        lambda: scene or _scene_that_can_run(options),
+        options.out or scene_directory(options),
+        prepare,
+        write_report,
+        options.allow_drift,
+    )

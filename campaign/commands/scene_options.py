@@ -1,0 +1,55 @@
+"""The arguments that name a scene and change it, and the scene they mean."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from campaign.scene import Scene
+
+
+def add_scene(parser: argparse.ArgumentParser, metavar: str = "SCENE|DIR") -> None:
+    """Add the arguments that name a scene and change it."""
+    what = "a TOML file, or the name of a built-in scene"
+    also = "; or the results directory of a campaign, for its scene" if "DIR" in metavar else ""
+    parser.add_argument("scene", metavar=metavar, help=what + also)
+    parser.add_argument("--realizations", metavar="N", type=int, help="at most this many")
+    parser.add_argument("--seed", metavar="S", type=int, help="seed of the random fields")
+    parser.add_argument(
+        "--set", metavar="KEY=VALUE", action="append", default=[], help='for instance soil.cohesion.mean="25 kPa"'
+    )
+
+
+def overrides(options: argparse.Namespace) -> list[str]:
+    """Return the overrides in the order of their precedence."""
+    named = {"campaign.realizations": options.realizations, "campaign.seed": options.seed}
+    return [*options.set, *(f"{key}={value}" for key, value in named.items() if value is not None)]
+
+
+def scene_directory(options: argparse.Namespace) -> Path | None:
+    """Return the results directory that stands where a scene could, None if a scene does."""
+    from campaign.scene import builtin_scenes
+
+    path = Path(options.scene)
+    return path if path.is_dir() and options.scene not in builtin_scenes() else None
+
+
+def read_scene(options: argparse.Namespace) -> "Scene":
+    """Read the scene that the options name, from its file or from a results directory, and change it as they say.
+
+    Raises
+    ------
+    CampaignError
+        With every mistake in it.
+    """
+    from campaign.scene import kept_scene, load_scene
+
+    changes = overrides(options)
+    directory = scene_directory(options)
+    if directory is None:
+        return load_scene(options.scene, changes)
+    from campaign.storage import manifest
+
+    about = manifest.read(directory)
+    scene = kept_scene(about["scene"], about["overrides"], about["name"])
+    return load_scene(scene, changes) if changes else scene

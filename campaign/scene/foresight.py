@@ -1,0 +1,178 @@
+"""What can be run but hardly be meant, or will not give the answer that is asked for: warnings before a campaign."""
+
+from math import ceil, floor, log10
+
+from campaign.scene import Scene
+from campaign.scene.complaints import Complaint, found
+from campaign.scene.cost import core_seconds, output_count, particle_count, realization_seconds, step_count, time_step
+from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, FirstLook
+from campaign.scene.limit_equilibrium import SlipCircle
+from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
+from campaign.terminal import duration
+
+ABSURD_FACTOR = 5.0
+"""Factor of safety beyond which a strength is more likely a slip of the pen than a soil."""
+
+LONGEST_RUNOUT, SAFE_RUNOUT = 1.3, 1.5
+"""In heights of the slope. Deterministic runs of `ma2023` and its variants (mean factors of safety of 0.6 to 0.9,
+residual ones of 0.1 to 0.5, 30 to 60 degrees, 6 to 30 m high) ran out 0.3 to 1.2 heights."""
+
+CLEAR_CELLS = 2.0
+"""Distance of a slip surface from a wall, in cells, below which the wall decides where it begins."""
+
+THINNEST_SLIDE = 4.0
+"""In cells."""
+
+MANY_HOURS = 1e5
+"""Core-hours beyond which a campaign is more likely a slip of the pen than a plan."""
+
+
+def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
+    """Return what a user should know of a scene that can be run."""
+    return found(
+        (
+            far_from_failure(look),
+            short_run(scene, look),
+            short_ground(scene, look),
+            short_crest(scene, look),
+            thin_foundation(scene, look),
+            coarse_cells(scene, look),
+            short_interval(scene),
+            damped_slide(scene),
+            short_timeout(scene),
+            large_campaign(scene),
+        )
+    )
+
+
+def far_from_failure(look: FirstLook) -> Complaint | None:
+    """Warn of a strength that no slope of this size needs."""
+    if look.peak is None or look.peak.factor < ABSURD_FACTOR:
+        return None
+    return Complaint(
+        "soil.cohesion.mean",
+        f"the factor of safety is then {look.peak.factor:.3g}, far above 1, and no realization will slide; check the "
+        "unit of the strength and the height of the slope",
+    )
+
+
+def short_run(scene: Scene, look: FirstLook) -> Complaint | None:
+    """Warn of an end before slides are at rest."""
+    numerics = scene.numerics
+    needed = LONGEST_SLIDE * look.time_scale + (numerics.ramp_time if numerics.gravity == "ramp" else 0.0)
+    if numerics.end_time >= 0.95 * needed or not _driven(look):
+        return None
+    ramp = f" after the ramp of {numerics.ramp_time:g} s" if numerics.gravity == "ramp" else ""
+    return Complaint(
+        "numerics.end_time",
+        f"a slide of {look.height:g} m takes about {SHORTEST_SLIDE * look.time_scale:.2g} to "
+        f"{LONGEST_SLIDE * look.time_scale:.2g} s{ramp} to come to rest, and what still moves at the end counts as not "
+        f'settled; use at least "{rounded_up(needed)} s"',
+    )
+
+
+def short_ground(scene: Scene, look: FirstLook) -> Complaint | None:
+    """Warn of a wall that slides will reach."""
+    length, needed = look.surface.width - look.surface.toe_x, SAFE_RUNOUT * look.height
+    if length >= LONGEST_RUNOUT * look.height or not _driven(look):
+        return None
+    text = (
+        f"slides of {look.height:g} m mostly run out 0.3 to 1.2 times their height, and the wall {length:g} m beyond "
+        "the toe will hold them back"
+    )
+    if scene.geometry.slope is not None:
+        return Complaint("geometry.slope.plain", f'{text}; use at least "{rounded_up(needed)} m"')
+    end = look.surface.toe_x + needed
+    return Complaint("geometry.surface", f"{text}; continue the ground to x = {rounded_up(end)} m or farther")
+
+
+def short_crest(scene: Scene, look: FirstLook) -> Complaint | None:
+    """Warn of a slip surface that begins at the left wall."""
+    clear = CLEAR_CELLS * scene.numerics.cell
+    if not any(circle.entry <= clear for circle in _driven(look)):
+        return None
+    key = "geometry.slope.crest" if scene.geometry.slope is not None else "geometry.surface"
+    text = "the critical slip circle begins at the wall on the left, which decides how much ground slides; add ground"
+    return Complaint(key, f"{text} behind the crest, about {rounded_up(look.height)} m of it")
+
+
+def thin_foundation(scene: Scene, look: FirstLook) -> Complaint | None:
+    """Warn of a slip surface that dips below the toe, down to the fixed base."""
+    cell, toe_y = scene.numerics.cell, look.surface.toe[1]
+    bounded = [circle for circle in _driven(look) if circle.lowest < min(cell, toe_y - cell)]
+    if not bounded:
+        return None
+    key = "geometry.slope.foundation" if scene.geometry.slope is not None else "geometry.surface"
+    return Complaint(
+        key,
+        f"the critical slip circle goes down to {bounded[0].lowest:.2g} m above the fixed base, which then holds the "
+        "slope; if there is no rock, deepen the foundation until the factor of safety no longer falls",
+    )
+
+
+def coarse_cells(scene: Scene, look: FirstLook) -> Complaint | None:
+    """Warn of a sliding body that is only a few cells thick."""
+    if look.peak is None or look.peak.depth(look.surface) >= THINNEST_SLIDE * scene.numerics.cell:
+        return None
+    depth = look.peak.depth(look.surface)
+    return Complaint(
+        "numerics.cell",
+        f"the critical slip circle is {depth:.2g} m deep, and a body of less than {THINNEST_SLIDE:g} cells slides "
+        f'badly; use "{depth / THINNEST_SLIDE:.2g} m" or less',
+    )
+
+
+def short_interval(scene: Scene) -> Complaint | None:
+    """Warn of output times that shorten the time step."""
+    interval, step = scene.numerics.output_interval, time_step(scene)
+    longest = ceil(scene.numerics.end_time / step)
+    if step_count(scene) <= 1.5 * longest:
+        return None
+    return Complaint(
+        "numerics.output_interval",
+        f"the time step could be {step:.2g} s, and {output_count(scene):,} intervals of {interval:.2g} s need "
+        f'{step_count(scene):,} steps instead of {longest:,}; use "{rounded_up(10.0 * step)} s" or more',
+    )
+
+
+def damped_slide(scene: Scene) -> Complaint | None:
+    """Warn of damping that slides may not survive; what they cannot survive is refused."""
+    loss = pic_loss(scene)
+    if loss <= ALLOWED_LOSS:
+        return None
+    return Complaint("numerics.flip", f"{damping(loss)}; use 1")
+
+
+def short_timeout(scene: Scene) -> Complaint | None:
+    """Warn of realizations that cannot end in time."""
+    needed, allowed = realization_seconds(scene), scene.campaign.realization_timeout
+    if needed <= allowed:
+        return None
+    return Complaint(
+        "campaign.realization_timeout",
+        f"a realization of {particle_count(scene):,} particles and {step_count(scene):,} steps may take "
+        f'{duration(needed)}; use at least "{rounded_up(2.0 * needed / 3600.0)} h", or larger cells',
+    )
+
+
+def large_campaign(scene: Scene) -> Complaint | None:
+    """Warn of a campaign that nobody can wait for."""
+    hours = core_seconds(scene) / 3600.0
+    if hours <= MANY_HOURS:
+        return None
+    return Complaint(
+        "campaign.realizations", f"all of them take about {hours:,.2g} core-hours; use fewer, or larger cells"
+    )
+
+
+def rounded_up(number: float) -> str:
+    """Write a number with two digits, not below it."""
+    unit = 10.0 ** (floor(log10(number)) - 1)
+    return f"{ceil(number / unit - 1e-9) * unit:g}"
+
+
+def _driven(look: FirstLook) -> list[SlipCircle]:
+    """Return the critical circles on which something could slide."""
+    if look.peak is not None and look.peak.factor >= ABSURD_FACTOR:
+        return []
+    return [circle for circle in (look.peak, look.residual) if circle is not None]

@@ -1,0 +1,71 @@
+"""`campaign validate` is a first look, and refuses what `campaign run` refuses."""
+
+import pytest
+
+from campaign import cli
+from campaign.commands import run as run_command
+
+
+@pytest.fixture(autouse=True)
+def keep_threads(monkeypatch):
+    monkeypatch.setattr(cli, "_pin_threads", lambda: None)
+
+
+def answer(capsys, *arguments):
+    code = cli.main(["validate", *arguments])
+    return code, capsys.readouterr()
+
+
+def test_a_scene_is_looked_at(capsys):
+    code, printed = answer(capsys, "ma2023")
+    assert code == 0
+    flat = " ".join(printed.out.split())
+    for part in (
+        "toe At x = 35 m, elevation 4 m: the foot of the slope.",
+        "factor of safety 0.73 with the mean peak strength on a circle from x = 14.1 m to 35 m",
+        "0.37 with the residual strength",
+        "Nearly every realization slides.",
+        "here 6.2 to 9.9 s. The run ends at 10 s.",
+        "300 x 76 points, 0.25 m apart",
+        "core-hours for all 1,000, with 4 repeated",
+        "a rank; the results take",
+    ):
+        assert part in flat
+    assert "Warning" not in flat
+
+
+def test_a_profile_is_told_where_its_toe_was_found(capsys):
+    surface = 'geometry.surface=[["0 m","19 m"],["20 m","19 m"],["35 m","4 m"],["75 m","4 m"]]'
+    _, printed = answer(capsys, "ma2023", "--set", "geometry={}", "--set", surface)
+    assert "x = 35 m, elevation 4 m: the foot of the steepest face" in " ".join(printed.out.split())
+    _, printed = answer(capsys, "ma2023", "--set", "geometry={}", "--set", surface, "--set", "geometry.toe=30 m")
+    assert "x = 30 m, elevation 9 m: as given." in " ".join(printed.out.split())
+
+
+def test_a_warning_shows_the_value_in_the_users_unit(capsys):
+    code, printed = answer(capsys, "ma2023", "--set", "soil.cohesion.mean=25 MPa")
+    assert code == 0
+    assert 'Warning: --set soil.cohesion.mean is "25 MPa", but' in printed.out
+
+
+NOT_RUN = [
+    "field.resolution=1 mm",
+    "field.resolution=1e-8 m",
+    "numerics.cell=1e-6 m",
+    "geometry.slope.plain=1e9 m",
+    "numerics.output_interval=1e-9 s",
+    "numerics.flip=0.9",
+    'geometry={surface=[["0 m","19 m"],["0 m","4 m"]]}',
+]
+
+
+@pytest.mark.parametrize("override", NOT_RUN)
+@pytest.mark.parametrize("command", ["validate", "run"])
+def test_what_cannot_be_run_is_refused_alike(command, override, capsys, monkeypatch):
+    monkeypatch.setattr(run_command, "_run_on_ranks", lambda *_: pytest.fail("it was begun"))
+    for name in run_command.SIZES:
+        monkeypatch.delenv(name, raising=False)
+    assert cli.main([command, "ma2023", "--set", override]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert "geometry" in printed.err or override.partition("=")[0] in printed.err

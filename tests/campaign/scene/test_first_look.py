@@ -1,0 +1,76 @@
+"""What is known of a slope before it is run."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from campaign.scene import load_scene
+from campaign.scene.first_look import FirstLook, look_at
+from campaign.scene.limit_equilibrium import critical_circle, factor_on
+from campaign.scene.outlook import outlook
+from solver.surface import slope_surface
+
+
+def test_a_given_circle_has_the_factor_it_was_found_with():
+    surface = slope_surface(15.0, np.pi / 4, 20.0, 40.0, 4.0)
+    found = critical_circle(surface, 20e3, np.radians(10.0), 20e3)
+    assert factor_on(found, surface, 20e3, np.radians(10.0), 20e3) == pytest.approx(found.factor, rel=1e-9)
+
+
+def test_a_circle_knows_how_deep_and_how_low_it_goes():
+    """Undrained clay on deep ground slides on a base circle that touches the fixed base, 20 m below the crest."""
+    surface = slope_surface(10.0, np.arctan(0.5), 30.0, 30.0, 10.0)
+    found = critical_circle(surface, 50e3, 0.0, 20e3)
+    assert found.lowest == pytest.approx(0.0, abs=0.02)
+    assert 10.0 < found.depth(surface) < 20.0
+    assert found.elevation(np.array([found.entry])) == pytest.approx(surface.height_at(np.array([found.entry])))
+
+
+def test_the_height_is_counted_from_the_toe_and_not_from_the_lowest_ground():
+    surface = 'geometry={surface=[["0 m","22 m"],["20 m","22 m"],["35 m","7 m"],["75 m","5 m"]]}'
+    assert look_at(load_scene("ma2023", [surface])).height == pytest.approx(15.0)
+
+
+def test_the_factor_scatters_as_the_strength_when_cohesion_alone_holds_the_slope():
+    """Without friction F is proportional to c, so that its coefficient of variation is that of c."""
+    undrained = ["soil.friction_angle.mean=0.001 deg", "soil.friction_angle.residual=0 deg", "soil.cohesion.cov=0.2"]
+    look = look_at(load_scene("ma2023", undrained))
+    assert look.spread / look.peak.factor == pytest.approx(0.2, rel=1e-3)
+
+
+def test_negative_cross_correlation_narrows_the_scatter():
+    spreads = [look_at(load_scene("ma2023", [f"field.cross_correlation={rho}"])).spread for rho in (-0.9, 0.0, 0.9)]
+    assert spreads == sorted(spreads)
+
+
+def test_soil_that_does_not_soften_has_no_residual_factor():
+    assert look_at(load_scene("bui2008")).residual is None
+
+
+@dataclass
+class Circle:
+    factor: float
+
+
+def look(peak, residual, spread=0.05):
+    return FirstLook(slope_surface(15.0, 0.8, 20.0, 40.0, 4.0), 15.0, Circle(peak), Circle(residual), spread)
+
+
+@pytest.mark.parametrize(
+    ("peak", "residual", "words"),
+    [
+        (0.73, 0.37, "Nearly every realization slides."),
+        (0.73, 0.73, "Nearly every realization slides."),
+        (0.8, 1.0, "What slides soon stops"),
+        (1.0, 0.5, "Some realizations slide: 50%"),
+        (1.05, 0.5, "Some realizations slide: 16% .*fewer where strength varies"),
+        (1.2, 0.5, "softening can start a slide"),
+        (1.2, 1.1, "No realization is expected to slide."),
+        (480.0, 0.4, "No realization is expected to slide."),
+    ],
+)
+def test_the_factors_of_safety_are_told_as_what_will_happen(peak, residual, words):
+    import re
+
+    assert re.search(words, outlook(look(peak, residual)))

@@ -1,0 +1,55 @@
+"""What can be run but hardly be meant is said with key, value and remedy; a sound scene gets no warning."""
+
+import pytest
+
+from campaign.scene import load_scene
+from campaign.scene.complaints import sentences
+from campaign.scene.first_look import look_at
+from campaign.scene.foresight import rounded_up, warnings
+
+PROFILE = 'geometry={surface=[["0 m","19 m"],["20 m","19 m"],["35 m","4 m"],["45 m","4 m"]]}'
+
+
+def warned(*overrides, source="ma2023"):
+    scene = load_scene(source, overrides)
+    return sentences(warnings(scene, look_at(scene)), scene)
+
+
+@pytest.mark.parametrize("source", ["ma2023", "ma2023-printed", "bui2008"])
+def test_the_built_in_scenes_are_sound(source):
+    assert warned(source=source) == []
+
+
+@pytest.mark.parametrize(
+    ("overrides", "sentence"),
+    [
+        (["soil.cohesion.mean=25 MPa"], '--set soil.cohesion.mean is "25 MPa", but the factor of safety is then 479'),
+        (["numerics.end_time=1 s"], '--set numerics.end_time is "1 s", but a slide of 15 m takes about 6.2 to 9.9 s'),
+        (["numerics.gravity=ramp"], "after the ramp of 2 s to come to rest"),
+        (["geometry.slope.plain=3 m"], '--set geometry.slope.plain is "3 m", but slides of 15 m mostly run out'),
+        ([PROFILE], "the wall 10 m beyond the toe will hold them back; continue the ground to x = 58 m or farther"),
+        (["geometry.slope.crest=4 m", "soil.cohesion.residual=4 kPa"], "begins at the wall on the left"),
+        (["soil.friction_angle.mean=0.1 deg", "soil.friction_angle.residual=0 deg", "geometry.slope.angle=25 deg"],
+         "m above the fixed base, which then holds the slope; if there is no rock, deepen the foundation"),
+        (["soil.cohesion.mean=1 kPa", "soil.cohesion.residual=1 kPa", "soil.friction_angle.mean=30 deg"],
+         "badly; use "),
+        (["numerics.output_interval=1e-4 s"], 'need 100,000 steps instead of 4,677; use "0.022 s" or more'),
+        (["numerics.flip=0.999"], "--set numerics.flip is 0.999, but this damping takes about 1.0% of the work"),
+        (["campaign.realization_timeout=1 s"], 'may take 3 s; use at least "0.0015 h", or larger cells'),
+        (["campaign.realizations=1000000000"], "core-hours; use fewer, or larger cells"),
+    ],
+)  # fmt: skip
+def test_what_can_hardly_be_meant_is_said_with_its_remedy(overrides, sentence):
+    found = warned(*overrides)
+    assert any(sentence in text for text in found), found
+
+
+def test_a_slope_that_cannot_slide_is_not_asked_for_a_longer_run():
+    assert len(warned("soil.cohesion.mean=25 MPa", "numerics.end_time=1 s", "geometry.slope.plain=3 m")) == 1
+
+
+@pytest.mark.parametrize(
+    ("number", "text"), [(22.5, "23"), (9.892, "9.9"), (0.0214, "0.022"), (20.0, "20"), (1234.0, "1300")]
+)
+def test_a_remedy_has_two_digits_and_is_not_too_small(number, text):
+    assert rounded_up(number) == text
