@@ -42,14 +42,19 @@ def read_scene(options: argparse.Namespace) -> "Scene":
     CampaignError
         With every mistake in it.
     """
-    from campaign.scene import kept_scene, load_scene
+    from campaign.scene import load_scene
 
-    changes = overrides(options)
     directory = scene_directory(options)
     if directory is None:
-        return load_scene(options.scene, changes)
+        return load_scene(options.scene, overrides(options))
+    return _scene_of(directory, overrides(options))
+
+
+def _scene_of(directory: Path, changes: list[str]) -> "Scene":
+    from campaign.scene import kept_scene, scene_of
+    from campaign.scene.document import in_force
     from campaign.storage import manifest
 
     about = manifest.read(directory)
-    scene = kept_scene(about["scene"], about["overrides"], about["name"])
-    return load_scene(scene, changes) if changes else scene
+    kept = kept_scene(about["scene"], about["overrides"], about["name"])
+    return scene_of(kept.text, in_force([*kept.overrides, *changes]), kept.name) if changes else kept

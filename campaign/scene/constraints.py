@@ -7,7 +7,10 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field
 
-from campaign.scene.units import Angle, Area, Length, Pressure, Time
+from campaign.scene.units import Angle, Area, Length, Pressure, Time, of_a_size
+
+LARGEST_COUNT = 10**9
+"""Of realizations, more than anybody has time for."""
 
 
 def must(complaint: str, holds: Callable[[Any], bool]) -> AfterValidator:
@@ -46,10 +49,16 @@ PositiveTime = Annotated[Time, POSITIVE]
 AcuteAngle = Annotated[Angle, must("lie between 0 deg and 90 deg", lambda angle: 0.0 < angle < radians(90.0))]
 RightAngle = Annotated[Angle, must("lie between -90 deg and 90 deg", lambda angle: abs(angle) <= radians(90.0))]
 
-PositiveNumber = Annotated[float, POSITIVE]
-PositiveCount = Annotated[int, must("be 1 or more", lambda count: count >= 1)]
+OF_A_SIZE = AfterValidator(of_a_size)
+NOT_ENDLESS = must(f"be at most {LARGEST_COUNT:,}", lambda count: count <= LARGEST_COUNT)
+
+PositiveNumber = Annotated[float, POSITIVE, OF_A_SIZE]
+PositiveCount = Annotated[int, must("be 1 or more", lambda count: count >= 1), NOT_ENDLESS]
+Count = Annotated[int, NOT_NEGATIVE, NOT_ENDLESS]
+Seed = Annotated[int, NOT_NEGATIVE, must("be below 2^63", lambda seed: seed < 2**63)]
+Line = Annotated[str, must("be a line of text without control characters", str.isprintable)]
 # None is left out of a scene's identity, so that 0 is the same scene as no key at all.
-OptionalCov = Annotated[float, NOT_NEGATIVE, AfterValidator(lambda cov: cov or None)] | None
+OptionalCov = Annotated[float, NOT_NEGATIVE, OF_A_SIZE, AfterValidator(lambda cov: cov or None)] | None
 Fraction = Annotated[float, must("lie between 0 and 1", lambda value: 0.0 <= value <= 1.0)]
 OpenFraction = Annotated[
     float, must("lie between 0 and 1, both excluded; 95 % is written 0.95", lambda value: 0.0 < value < 1.0)

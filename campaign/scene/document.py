@@ -19,6 +19,9 @@ HEADER = re.compile(r"""\s*\[\s*([\w.\-\s]+?)\s*\]\s*(?:#.*)?""")
 ASSIGNMENT = re.compile(r"""\s*([\w.\-"']+(?:\s*\.\s*[\w\-"']+)*)\s*=""")
 BARE_QUANTITY = re.compile(r"=\s*[+-]?[\d.]+(?:[eE][+-]?\d+)?\s*[A-Za-z°%]")
 
+DEEPEST = 8
+TOO_DEEP = "tables and lists are nested too deeply; a scene needs four levels"
+
 
 @dataclass(frozen=True)
 class Document:
@@ -107,9 +110,21 @@ def override_key(override: str) -> tuple[str, ...]:
     return _split(override.partition("=")[0])
 
 
+def in_force(overrides: Iterable[str]) -> list[str]:
+    """Return the overrides without those that a later one of the same key replaces."""
+    kept: dict[tuple[str, ...], str] = {}
+    for override in overrides:
+        kept.pop(override_key(override), None)
+        kept[override_key(override)] = override
+    return list(kept.values())
+
+
 def shown(value: Any) -> str:
     """Write a value as the scene file would, shortened if it is long."""
-    text = json.dumps(value, ensure_ascii=False, default=str)
+    return _short(json.dumps(value, ensure_ascii=False, default=str))
+
+
+def _short(text: str) -> str:
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
@@ -123,8 +138,10 @@ def _read(source: str | Path) -> tuple[str, str]:
         return str(path), path.read_bytes().decode("utf-8-sig")
     except FileNotFoundError:
         raise SceneError([_unknown_scene(str(source))]) from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise SceneError([f'The scene "{source}" cannot be read: {error}. Give a text file in UTF-8.']) from error
+    except (OSError, ValueError) as error:  # ValueError for what is not UTF-8, and for a name that holds a NUL
+        raise SceneError(
+            [f"The scene {shown(str(source))} cannot be read: {error}. Give a text file in UTF-8."]
+        ) from error
 
 
 def _unknown_scene(source: str) -> str:
@@ -136,7 +153,7 @@ def _unknown_scene(source: str) -> str:
 
 def _parse(text: str, file: str) -> dict[str, Any]:
     try:
-        return tomllib.loads(text)
+        return _loaded(text)
     except tomllib.TOMLDecodeError as error:
         found = re.search(r"line (\d+)", str(error))
         line = text.split("\n")[int(found[1]) - 1].strip() if found else ""
@@ -145,10 +162,38 @@ def _parse(text: str, file: str) -> dict[str, Any]:
         raise SceneError([f"{Path(file).name} is not valid TOML: {error}.{written}{remedy}"]) from error
 
 
+def _loaded(text: str) -> dict[str, Any]:
+    """Read TOML; what Python cannot hold, or the rest of this program not follow, is an error of the text as well."""
+    try:
+        tables = tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        raise
+    except RecursionError:
+        raise tomllib.TOMLDecodeError(TOO_DEEP) from None
+    except ValueError:
+        raise tomllib.TOMLDecodeError("a number has thousands of digits") from None
+    if _levels(tables) > DEEPEST:
+        raise tomllib.TOMLDecodeError(TOO_DEEP)
+    return tables
+
+
+def _levels(value: Any) -> int:
+    """Return how many tables and lists lie within each other, counted up to one more than is allowed."""
+    level, inside = 0, [value]
+    while level <= DEEPEST and (inside := [part for part in inside if isinstance(part, dict | list)]):
+        level += 1
+        inside = [item for part in inside for item in (part.values() if isinstance(part, dict) else part)]
+    return level
+
+
 def _apply(override: str, tables: dict[str, Any]) -> str | None:
     *sections, last = path = override_key(override)
     if "=" not in override or not all(path):
-        return f'--set {override} has no key and value; write KEY=VALUE, for instance --set numerics.cell="0.5 m".'
+        return (
+            f'--set {_short(override)} has no key and value; write KEY=VALUE, for instance --set numerics.cell="0.5 m".'
+        )
+    if len(path) > DEEPEST:
+        return f"--set {_short('.'.join(path))}: {TOO_DEEP}."
     for depth, section in enumerate(sections, start=1):
         tables = tables.setdefault(section, {})
         if not isinstance(tables, dict):
@@ -160,7 +205,7 @@ def _apply(override: str, tables: dict[str, Any]) -> str | None:
 def _override_value(text: str) -> Any:
     # A shell strips the quotes of --set numerics.cell="0.5 m", so what is not TOML is text.
     try:
-        return tomllib.loads(f"value = {text}")["value"]
+        return _loaded(f"value = {text}")["value"]
     except tomllib.TOMLDecodeError:
         return text
 

@@ -1,6 +1,7 @@
 """What can be run but hardly be meant, or will not give the answer that is asked for: warnings before a campaign."""
 
 from math import ceil, floor, log10
+from operator import attrgetter
 
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint, found
@@ -23,6 +24,15 @@ CLEAR_CELLS = 2.0
 THINNEST_SLIDE = 4.0
 """In cells."""
 
+SOILS = (
+    ("soil.unit_weight", 5e3, 40e3, "5 to 40 kN/m^3"),
+    ("soil.young_modulus", 1e5, 1e11, "0.1 MPa (very soft) to 100 GPa (rock)"),
+    ("soil.cohesion.cov", 0.0, 1.0, "0.1 to 0.6, and a field beyond 1 is nearly 0 nearly everywhere"),
+    ("soil.friction_angle.cov", 0.0, 1.0, "0.05 to 0.2"),
+    ("soil.softening.rate", 1e-4, 1e3, "about 0.1 to 10, and a rate far from that is no softening or a sudden one"),
+)
+"""Keys, the SI values between which they are not remarked on, and what soils have."""
+
 MANY_HOURS = 1e5
 """Core-hours beyond which a campaign is more likely a slip of the pen than a plan."""
 
@@ -41,6 +51,7 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
             damped_slide(scene),
             short_timeout(scene),
             large_campaign(scene),
+            *(unusual_soil(scene, *row) for row in SOILS),
         )
     )
 
@@ -163,6 +174,14 @@ def large_campaign(scene: Scene) -> Complaint | None:
     return Complaint(
         "campaign.realizations", f"all of them take about {hours:,.2g} core-hours; use fewer, or larger cells"
     )
+
+
+def unusual_soil(scene: Scene, key: str, least: float, most: float, usual: str) -> Complaint | None:
+    """Warn of a value that hardly any soil has."""
+    value = attrgetter(key)(scene)
+    if value is None or least <= value <= most:
+        return None
+    return Complaint(key, f"soils have {usual}; check the number and the unit")
 
 
 def rounded_up(number: float) -> str:

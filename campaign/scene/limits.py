@@ -29,7 +29,7 @@ def refusals(scene: Scene, memory: float) -> list[Complaint]:
     """Return why a scene cannot be run on a machine with so much memory (bytes); nothing if it can."""
     particles = too_many_particles(scene, memory)
     results = None if particles else too_large_results(scene, memory)
-    return found((particles, results, too_much_damping(scene)))
+    return found((particles, results, too_long_average(scene), too_much_damping(scene)))
 
 
 def too_many_particles(scene: Scene, memory: float) -> Complaint | None:
@@ -58,6 +58,17 @@ def too_large_results(scene: Scene, memory: float) -> Complaint | None:
         return Complaint("numerics.output_interval", f"{text}; use a longer interval")
     largest = int(memory / (COPIES * record_bytes(scene)))
     return Complaint("campaign.realizations", f"their results take {sizes}; use at most {largest:,}")
+
+
+def too_long_average(scene: Scene) -> Complaint | None:
+    """Complain about an average of plastic strain over more than the ground."""
+    length, width = scene.soil.softening.internal_length, surface_of(scene.geometry).width
+    if length is None or length <= width:
+        return None
+    return Complaint(
+        "soil.softening.internal_length",
+        f"the ground is {width:g} m wide; use the thickness of a shear band, or what a few cells resolve",
+    )
 
 
 def too_much_damping(scene: Scene) -> Complaint | None:

@@ -36,12 +36,3 @@ def flatten(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
         key = prefix + name
         values |= flatten(value, f"{key}.") if isinstance(value, Mapping) else {key: value}
     return values
-
-
-def differences(here: Mapping[str, Any], there: Mapping[str, Any]) -> list[str]:
-    """Say, key by key, how two identities differ; `there` is the one in the results directory."""
-    return [
-        f"{key} is {here.get(key, 'absent')} here but {there.get(key, 'absent')} in the results directory"
-        for key in sorted(here.keys() | there.keys())
-        if here.get(key) != there.get(key)
-    ]

@@ -10,7 +10,9 @@ from campaign.scene.constraints import (
     NOT_NEGATIVE,
     POSITIVE,
     AcuteAngle,
+    Count,
     Fraction,
+    Line,
     OpenFraction,
     OptionalCov,
     PositiveArea,
@@ -21,6 +23,7 @@ from campaign.scene.constraints import (
     PositiveTime,
     Profile,
     RightAngle,
+    Seed,
     must,
     one_of,
 )
@@ -169,21 +172,21 @@ class Campaign(Section):
     """How many realizations, from which seed, and when they are enough."""
 
     realizations: PositiveCount = 1000
-    seed: Annotated[int, NOT_NEGATIVE] = 0
+    seed: Seed = 0
     mean_tolerance: OpenFraction = 0.01
     variance_tolerance: OpenFraction = 0.25
     confidence: OpenFraction = 0.95
-    minimum: Annotated[int, must("be 10 or more, or no interval on a variance means much", lambda n: n >= 10)] = 100
+    minimum: Annotated[Count, must("be 10 or more, or no interval on a variance means much", lambda n: n >= 10)] = 100
     block: PositiveCount = 25
     max_failed_fraction: Fraction = 0.1
-    discretisation_pairs: Annotated[int, NOT_NEGATIVE] = 4
+    discretisation_pairs: Count = 4
     realization_timeout: PositiveTime = 3600.0
 
 
 class SceneFile(Section):
     """What a scene file holds."""
 
-    title: str
+    title: Line
     geometry: Geometry
     soil: Soil
     field: RandomField

@@ -2,9 +2,12 @@
 
 import re
 from functools import cache, partial
+from math import isfinite
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from pydantic import BeforeValidator
+
+from campaign.scene.document import shown
 
 if TYPE_CHECKING:
     import pint
@@ -28,8 +31,15 @@ DENSITY = Kind("a density", "kg/m^3", "2000 kg/m^3")
 NUMBER = Kind("a number without unit", "", "0.1")
 KINDS = (LENGTH, AREA, PRESSURE, UNIT_WEIGHT, ANGLE, TIME, DENSITY, NUMBER)
 
-QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S.*?)?\s*")
-BARE_EXPONENT = re.compile(r"(?<=[A-Za-z])(\d)")
+QUANTITY = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(\S.*?)?\s*", re.DOTALL)
+
+NAME, POWER = r"(?:[A-Za-zµμ]+|°|%)", r"(?:(?:\^|\*\*)?(-?[1-9]))?"
+UNIT = re.compile(rf"{NAME}{POWER}(?:\s*[*/·]\s*{NAME}{POWER})*")
+"""A unit is names, each with a power of one digit or none, joined by signs of multiplication or division."""
+FACTOR = re.compile(rf"([*/·]?)\s*({NAME}){POWER}")
+
+SMALLEST, LARGEST = 1e-15, 1e15
+"""Magnitudes of a number in SI, other than 0; those of a soil are far within, and none overflows in a product."""
 
 
 def si_value(text: Any, kind: Kind) -> float:
@@ -50,7 +60,7 @@ def si_value(text: Any, kind: Kind) -> float:
     Raises
     ------
     ValueError
-        For a bare number, an unknown unit or a wrong dimension, worded to follow "KEY is VALUE, but".
+        For a bare number, an unknown unit, a wrong dimension or an absurd size, worded to follow "KEY is VALUE, but".
     """
     parts = QUANTITY.fullmatch(text) if isinstance(text, str) else None
     if isinstance(text, str) and parts is None:
@@ -60,7 +70,27 @@ def si_value(text: Any, kind: Kind) -> float:
     unit = _known_unit(parts[2], kind)
     if _root(unit) != _root(_registry().Unit(kind.si_unit)):
         raise ValueError(f'that is {_name(unit)}, and {kind.name} is needed, for instance "{kind.example}"')
-    return float(_registry().Quantity(float(parts[1]), unit).to(kind.si_unit).magnitude)
+    return of_a_size(float(_registry().Quantity(float(parts[1]), unit).to(kind.si_unit).magnitude), kind.si_unit)
+
+
+def of_a_size(value: float, si_unit: str = "") -> float:
+    """Return a number in SI if it is one that something can have.
+
+    Raises
+    ------
+    ValueError
+        For NaN, and for what is too large or too small, worded to follow "KEY is VALUE, but".
+    """
+    if isfinite(value) and value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
+        unit = f" {si_unit}" if si_unit else ""
+        raise ValueError(f"nothing is of that size; give 0, or from {SMALLEST:g}{unit} to {LARGEST:g}{unit}")
+    return value
+
+
+def shown_in_unit(value: float, kind: Kind) -> str:
+    """Write a value given in SI in the unit in which people read it, that of the kind's example."""
+    unit = kind.example.partition(" ")[2]
+    return f"{_registry().Quantity(value, kind.si_unit).to(_known_unit(unit, kind)).magnitude:.6g} {unit}"
 
 
 @cache
@@ -72,10 +102,18 @@ def _registry() -> "pint.UnitRegistry[float]":
 
 
 def _known_unit(text: str, kind: Kind) -> "pint.Unit":
+    """Return the product of the units named in a text; pint looks each name up and evaluates nothing."""
     try:
-        return _registry().Unit(BARE_EXPONENT.sub(r"^\1", text))
-    except Exception as error:  # pint lets errors of its own tokenizer through
-        raise ValueError(f'"{text}" is not a unit; {kind.name} is written for instance "{kind.example}"') from error
+        if UNIT.fullmatch(text) is None:
+            raise ValueError("it does not follow the grammar")
+        unit = _registry().Unit("")
+        for sign, name, power in FACTOR.findall(text):
+            unit *= _registry().Unit(name) ** (int(power or 1) * (-1 if sign == "/" else 1))
+    except Exception as error:  # pint has many for a name that it does not know
+        raise ValueError(
+            f'{shown(text)} is not a unit; {kind.name} is written for instance "{kind.example}"'
+        ) from error
+    return unit
 
 
 def _root(unit: "pint.Unit") -> Any:

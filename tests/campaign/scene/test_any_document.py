@@ -14,8 +14,9 @@ JUNK = st.one_of(
     st.none(),
     st.booleans(),
     st.integers(-5, 5),
+    st.sampled_from([10**4000, -(10**30), 1e300, 1e-300]),
     st.floats(),
-    st.sampled_from(["", "1 m", "-3 kPa", "gimp", "20 deg", "1e9 s", "kronecker"]),
+    st.sampled_from(["", "1 m", "-3 kPa", "gimp", "20 deg", "1e9 s", "1e300 m", "1 m**9**9", "1 m\0", "kronecker"]),
     st.lists(st.sampled_from([[], ["0 m", "1 m"], ["1 m"], 3, "a"]), max_size=3),
     st.dictionaries(st.sampled_from(["mean", "height", "cell", "x"]), st.integers(), max_size=2),
 )

@@ -37,6 +37,10 @@ def test_the_built_in_scenes_are_sound(source):
         (["numerics.flip=0.999"], "--set numerics.flip is 0.999, but this damping takes about 1.0% of the work"),
         (["campaign.realization_timeout=1 s"], 'may take 3 s; use at least "0.0015 h", or larger cells'),
         (["campaign.realizations=1000000000"], "core-hours; use fewer, or larger cells"),
+        (["soil.unit_weight=20 N/m^3"], 'is "20 N/m^3", but soils have 5 to 40 kN/m^3; check the number and the unit.'),
+        (["soil.young_modulus=1 Pa"], "but soils have 0.1 MPa (very soft) to 100 GPa"),
+        (["soil.cohesion.cov=10.0"], "but soils have 0.1 to 0.6"),
+        (["soil.softening.rate=1e14"], "but soils have about 0.1 to 10"),
     ],
 )  # fmt: skip
 def test_what_can_hardly_be_meant_is_said_with_its_remedy(overrides, sentence):

@@ -6,6 +6,7 @@ import pytest
 from scene_complaints import EXAMPLE, SURFACE
 
 from campaign.scene import Scene, differences, load_scene
+from campaign.scene.document import in_force
 
 
 def test_what_decides_a_realization_changes_its_identity() -> None:
@@ -38,11 +39,40 @@ def test_the_identity_survives_json_bit_for_bit() -> None:
     assert scene.identity()["geometry.surface"][0] == [0.0, 19.0]
 
 
-def test_differences_are_sentences() -> None:
-    here = {"numerics.cell": 0.5, "campaign.seed": 1, "field.resolution": 0.25}
-    there = {"numerics.cell": 1.0, "campaign.seed": 1}
+def test_differences_are_told_in_the_units_of_people() -> None:
+    there = load_scene("ma2023").identity()
+    changed = ["soil.cohesion.mean=25 kPa", "soil.friction_angle.mean=0.2 rad", "campaign.seed=1"]
+    here = load_scene("ma2023", changed).identity()
     assert differences(here, there) == [
-        "field.resolution is 0.25 here but absent in the results directory",
-        "numerics.cell is 0.5 here but 1.0 in the results directory",
+        "campaign.seed is 1 here but 2023 in the results directory",
+        "soil.cohesion.mean is 25 kPa here but 20 kPa in the results directory",
+        "soil.friction_angle.mean is 11.4592 deg here but 10 deg in the results directory",
     ]
     assert differences(here, here) == []
+
+
+def test_what_one_scene_has_and_the_other_has_not_is_absent() -> None:
+    here = json.loads(json.dumps({"geometry.surface": [[0.0, 19.0], [20.0, 4.0]]}))
+    assert differences(here, {"field.resolution": 0.25}) == [
+        "field.resolution is absent here but 0.25 m in the results directory",
+        'geometry.surface is [["0 m", "19 m"], ["20 m", "4 m"]] here but absent in the results directory',
+    ]
+
+
+def test_values_that_look_alike_are_told_apart() -> None:
+    here, there = {"soil.cohesion.mean": 20000.000000001}, {"soil.cohesion.mean": 20000.0}
+    assert differences(here, there) == [
+        "soil.cohesion.mean is 20000.000000001 here but 20000.0 in the results directory"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("overrides", "kept"),
+    [
+        (["a=1", "b=2", "a=3"], ["b=2", "a=3"]),
+        (["a.b=1", "a={b=2}", "a.b=3"], ["a={b=2}", "a.b=3"]),
+        ([], []),
+    ],
+)
+def test_an_override_that_a_later_one_replaces_is_forgotten(overrides: list[str], kept: list[str]) -> None:
+    assert in_force(overrides) == kept

@@ -81,6 +81,16 @@ def test_a_syntax_error_names_the_line_and_the_missing_quotes(tmp_path: Path) ->
         ("campaign.minimum=9", "it must be 10 or more"),
         ("campaign.confidence=95", "95, but it must lie between 0 and 1, both excluded; 95 % is written 0.95."),
         ("campaign.seed=-1", "it must not be negative"),
+        # sizes
+        ("soil.cohesion.cov=1e300", "1e+300, but nothing is of that size; give 0, or from 1e-15 to 1e+15."),
+        ("soil.softening.rate=1e300", "nothing is of that size"),
+        ("geometry.slope.height=1e300 m", "nothing is of that size; give 0, or from 1e-15 m to 1e+15 m."),
+        ("campaign.discretisation_pairs=100000000000000000000000000000", "it must be at most 1,000,000,000."),
+        ("campaign.realizations=100000000000000000000000000000", "it must be at most 1,000,000,000."),
+        ("campaign.seed=10000000000000000000", "it must be below 2^63"),
+        (f"campaign.seed={'9' * 5000}", "but a whole number without quotes is needed."),
+        (f"{'.'.join('a' * 3000)}=1", "nested too deeply"),
+        ('title="a\\u0000b"', '"a\\u0000b", but it must be a line of text without control characters.'),
         # pairs
         ("soil.cohesion.residual=21 kPa", "it must not exceed the mean peak cohesion, 20 kPa"),
         ("soil.friction_angle.residual=11 deg", "it must not exceed the mean peak friction angle, 10 deg"),
@@ -96,7 +106,25 @@ def test_a_syntax_error_names_the_line_and_the_missing_quotes(tmp_path: Path) ->
 def test_an_impossible_value_is_refused_with_its_remedy(override: str, expected: str) -> None:
     messages = complaints(override)
     assert any(expected in message for message in messages), messages
-    assert messages[0].startswith(f"--set {override.partition('=')[0]}")
+    assert messages[0].startswith(f"--set {override.partition('=')[0]}"[:60])
+
+
+@pytest.mark.parametrize(
+    "text", ["a = " + "[" * 100_000, "a = " + "[" * 400 + "]" * 400, ".".join("a" * 3000) + " = 1"]
+)
+def test_nesting_without_end_is_a_sentence(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "slope.toml"
+    path.write_text(text)
+    assert complaint(source=path).startswith("slope.toml is not valid TOML: tables and lists are nested too deeply")
+
+
+def test_a_number_without_end_is_a_sentence(tmp_path: Path) -> None:
+    path = written(tmp_path, ("seed = 2023", f"seed = {'9' * 5000}"))
+    assert complaint(source=path) == "slope.toml is not valid TOML: a number has thousands of digits."
+
+
+def test_a_name_with_a_nul_is_a_sentence() -> None:
+    assert complaint(source="a\0b").startswith('The scene "a\\u0000b" cannot be read: ')
 
 
 def test_a_missing_key_comes_with_an_example(tmp_path: Path) -> None:
