@@ -8,12 +8,16 @@ import numpy as np
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.limit_equilibrium import SlipCircle, critical_circle, factor_on
+from campaign.scene.sections import FrictionAngle
 from solver.constants import STANDARD_GRAVITY
 from solver.surface import Surface
 
 SHORTEST_SLIDE, LONGEST_SLIDE = 5.0, 8.0
 """Times from release to rest over sqrt(H / g). Deterministic runs of `ma2023` and its variants (mean factors of safety
 of 0.6 to 0.9, residual ones of 0.1 to 0.5, 30 to 60 degrees, 6 to 30 m high) took 5.0 to 8.3."""
+
+NO_FRICTION = FrictionAngle.model_construct(mean=0.0, cov=0.0, residual=0.0)
+"""Of soil with undrained strength alone."""
 
 
 class FirstLook(NamedTuple):
@@ -55,10 +59,11 @@ class FirstLook(NamedTuple):
 def look_at(scene: Scene) -> FirstLook:
     """Return a first look at the slope of a scene."""
     surface, soil = surface_of(scene.geometry), scene.soil
-    peak = _circle(surface, soil.cohesion.mean, soil.friction_angle.mean, soil.unit_weight)
+    friction_angle = soil.friction_angle or NO_FRICTION
+    peak = _circle(surface, soil.cohesion.mean, friction_angle.mean, soil.unit_weight)
     residual = None
     if soil.softening.law != "none":
-        residual = _circle(surface, soil.cohesion.residual, soil.friction_angle.residual, soil.unit_weight)
+        residual = _circle(surface, soil.cohesion.residual, friction_angle.residual, soil.unit_weight)
     spread = 0.0 if peak is None else _spread(scene, surface, peak)
     return FirstLook(surface, height_above_toe(surface), peak, residual, spread)
 
@@ -81,7 +86,7 @@ def _spread(scene: Scene, surface: Surface, circle: SlipCircle) -> float:
     sqrt(a^2 + b^2 + 2 rho a b).
     """
     soil = scene.soil
-    cohesion, friction_angle = soil.cohesion, soil.friction_angle
+    cohesion, friction_angle = soil.cohesion, soil.friction_angle or NO_FRICTION
 
     def factor(cohesions: float, friction_angles: float) -> float:
         strength = cohesion.mean + cohesions * step_c, friction_angle.mean + friction_angles * step_phi

@@ -1,7 +1,6 @@
 """What can be run but hardly be meant, or will not give the answer that is asked for: warnings before a campaign."""
 
 from math import ceil, floor, log10
-from operator import attrgetter
 
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint, found
@@ -178,7 +177,7 @@ def large_campaign(scene: Scene) -> Complaint | None:
 
 def unusual_soil(scene: Scene, key: str, least: float, most: float, usual: str) -> Complaint | None:
     """Warn of a value that hardly any soil has."""
-    value = attrgetter(key)(scene)
+    value = scene.identity().get(key)
     if value is None or least <= value <= most:
         return None
     return Complaint(key, f"soils have {usual}; check the number and the unit")

@@ -1,11 +1,14 @@
 """What is known of a slope before it is run."""
 
+import copy
+import re
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
-from campaign.scene import load_scene
+from campaign.scene import Scene, load_scene
+from campaign.scene.document import read_document
 from campaign.scene.first_look import FirstLook, look_at
 from campaign.scene.limit_equilibrium import critical_circle, factor_on
 from campaign.scene.outlook import outlook
@@ -37,6 +40,18 @@ def test_the_factor_scatters_as_the_strength_when_cohesion_alone_holds_the_slope
     undrained = ["soil.friction_angle.mean=0.001 deg", "soil.friction_angle.residual=0 deg", "soil.cohesion.cov=0.2"]
     look = look_at(load_scene("ma2023", undrained))
     assert look.spread / look.peak.factor == pytest.approx(0.2, rel=1e-3)
+
+
+def test_undrained_soil_has_no_friction_angle():
+    """Taylor's slope of depth factor 2: F = 1.47 with c = 50 kPa."""
+    tables = copy.deepcopy(read_document("ma2023").tables)
+    del tables["soil"]["friction_angle"]
+    tables["soil"] |= {"law": "tresca", "cohesion": {"mean": "50 kPa", "cov": 0.3, "residual": "20 kPa"}}
+    slope = {"height": "10 m", "angle": "26.565 deg", "crest": "30 m", "plain": "30 m", "foundation": "10 m"}
+    tables["geometry"] = {"slope": slope}
+    look = look_at(Scene.model_validate(tables | {"name": "undrained", "text": ""}))
+    assert look.peak.factor == pytest.approx(1.47, rel=0.01)
+    assert look.spread / look.peak.factor == pytest.approx(0.3, rel=1e-3)
 
 
 def test_negative_cross_correlation_narrows_the_scatter():
@@ -71,6 +86,4 @@ def look(peak, residual, spread=0.05):
     ],
 )
 def test_the_factors_of_safety_are_told_as_what_will_happen(peak, residual, words):
-    import re
-
     assert re.search(words, outlook(look(peak, residual)))
