@@ -15,7 +15,7 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_
 DEFAULT = ["run", "ma2023"]
 """What is done without arguments."""
 
-COMMANDS = ("run", "validate", "status", "report", "replay", "tradeoff", "scenes")
+COMMANDS = ("run", "new", "validate", "draw", "status", "report", "replay", "tradeoff", "scenes")
 """Modules of `campaign.commands`, in the order of the help."""
 
 

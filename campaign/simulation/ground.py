@@ -13,6 +13,7 @@ from campaign.fields.properties import PROPERTIES, SoilProperty, raised_to_floor
 from campaign.fields.scene_sampler import strength_sampler
 from campaign.fields.strengths import Strengths, StrengthSampler
 from campaign.record import Quantity, Record
+from campaign.scene.ground_surface import surface_of
 from campaign.scene.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.simulation.quantities import QUANTITIES
@@ -23,6 +24,7 @@ from solver.in_situ import NotSettledError, in_situ_state
 from solver.march import March
 from solver.model import Model
 from solver.particles import Particles, copy_particles
+from solver.surface import Surface
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -174,7 +176,12 @@ def prepare(scene: Scene, directory: Path | None = None) -> Ground:
     model = model_of(scene)
     lattice = ground_of(model)
     in_situ = _loaded(model) if scene.numerics.gravity == "release" else copy_particles(lattice)
-    return Ground(scene, model, lattice, in_situ, _sampler(scene, model, directory))
+    return Ground(scene, model, lattice, in_situ, _sampler(scene, model.surface, directory))
+
+
+def strengths_of(scene: Scene, realization: int) -> Strengths:
+    """Draw the strengths of a realization without preparing anything else."""
+    return _sampler(scene, surface_of(scene.geometry), None).draw(scene.campaign.seed, realization)
 
 
 def _loaded(model: Model) -> Particles:
@@ -184,6 +191,5 @@ def _loaded(model: Model) -> Particles:
         raise RefusalError(str(error)) from error
 
 
-def _sampler(scene: Scene, model: Model, directory: Path | None) -> StrengthSampler:
-    surface = model.surface
+def _sampler(scene: Scene, surface: Surface, directory: Path | None) -> StrengthSampler:
     return strength_sampler(scene, surface.width, surface.top, directory, soil=lambda x, y: y < surface.height_at(x))

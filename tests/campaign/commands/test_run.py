@@ -27,7 +27,7 @@ def begun(tmp_path):
     return tmp_path, scene
 
 
-@pytest.mark.parametrize("command", ["run", "validate"])
+@pytest.mark.parametrize("command", ["run", "validate", "draw"])
 def test_a_directory_stands_for_its_scene(begun, command):
     directory, scene = begun
     assert read_scene(options(directory, command=command)) == scene

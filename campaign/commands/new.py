@@ -1,0 +1,69 @@
+"""`campaign new`: a commented scene to start from."""
+
+import argparse
+from pathlib import Path
+
+from campaign.exit_codes import ExitCode
+
+HELP = "a commented scene file to start from"
+
+TEMPLATE = "ma2023"
+
+HEADER = """\
+# {name}: how far will this slope run, and how sure are we?
+#
+# Replace the values by those of your slope and look at it before you run it; the second command draws a picture.
+#
+#     campaign validate {file}
+#     campaign draw {file}
+#     mpirun -n 4 campaign run {file} --out results
+#
+# Every dimensional value carries its unit. "paper" is Ma, Rezania and Mousavi Nezhad, "Large deformation modeling of
+# landslides using stochastic MPM with interdependent variables", whose slope this is until you change it, and "ours"
+# what it does not say. A slope of several faces is given by its points instead of [geometry.slope]:
+#
+#     [geometry]
+#     surface = [["0 m", "19 m"], ["20 m", "19 m"], ["35 m", "4 m"], ["75 m", "4 m"]]   # x and elevation above the base
+
+title = {title}
+"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument("file", metavar="FILE", type=Path, help="for instance my-slope.toml; must not exist")
+
+
+def carry_out(options: argparse.Namespace) -> ExitCode:
+    """Write the scene and say what to do with it.
+
+    Raises
+    ------
+    RefusalError
+        When the file exists, cannot be written, or would not be read as a scene.
+    """
+    from campaign.errors import RefusalError
+
+    file: Path = options.file
+    if file.suffix != ".toml":
+        raise RefusalError(f'A scene is a TOML file, and "{file}" does not end in .toml; give {file.name}.toml.')
+    try:
+        with file.open("x", encoding="utf-8") as stream:
+            stream.write(new_scene(file))
+    except FileExistsError:
+        raise RefusalError(f"{file} exists and is left as it is; give another name.") from None
+    except (OSError, ValueError) as error:
+        raise RefusalError(f"{file} cannot be written ({error}); give another place.") from error
+    print(f"{file}: the slope of {TEMPLATE}, to be changed. Then: campaign validate {file}")
+    return ExitCode.DONE
+
+
+def new_scene(file: Path) -> str:
+    """Return the text of a built-in scene with a header for a new user."""
+    import json
+
+    from campaign.scene.document import read_document
+
+    body = read_document(TEMPLATE).text.partition("\ntitle = ")[2].partition("\n")[2]
+    title = json.dumps(file.stem, ensure_ascii=False)
+    return HEADER.format(name=file.stem, file=file.name, title=title) + body

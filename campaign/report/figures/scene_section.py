@@ -1,0 +1,119 @@
+"""A scene before it is run: its section with toe, mesh and critical circle, and the field of a realization."""
+
+from pathlib import Path
+from textwrap import fill
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.patches import Polygon
+
+from campaign.fields.strengths import Strengths
+from campaign.report.figures.section import Section
+from campaign.report.figures.style import BLACK, BLUE, GREY, ORANGE, WIDTH, Illustration, in_style, letter, new_figure
+from campaign.scene import Scene
+from campaign.scene.first_look import FirstLook, look_at
+from campaign.scene.limit_equilibrium import SlipCircle
+from campaign.simulation.ground import strengths_of
+from solver.grid import whole_cells
+from solver.surface import Surface
+
+GROUND = "#f3ece0"
+
+MOST_LINES = 200
+"""Of a mesh across the figure; finer ones would be a grey area."""
+
+FIELDS = {"cohesion": ("peak cohesion", "kPa", 1e-3), "friction_angle": ("peak friction angle", "deg", 180.0 / np.pi)}
+"""By name: what they are called, the unit they are shown in, and how many of it are one in SI."""
+
+TITLE = 80
+"""Characters of a line above a panel."""
+
+OVERHEAD, TALLEST = 0.75, 14.0
+"""Height in inches of a panel's title and axis, and of the largest figure."""
+
+
+def save(scene: Scene, realization: int, path: Path) -> None:
+    """Draw a scene and write the figure, in the format that the name of the file says."""
+    with in_style():
+        illustration = scene_section(scene, look_at(scene), strengths_of(scene, realization), realization)
+        illustration.figure.savefig(path, bbox_inches="tight")
+
+
+def scene_section(scene: Scene, look: FirstLook, strengths: Strengths, realization: int) -> Illustration:
+    """Draw the section of a scene, and below it the strengths of a realization."""
+    section = Section(look.surface, scene.numerics.cell, look.surface.width)
+    fields = {name: about for name, about in FIELDS.items() if name in strengths.to_dataset()}
+    height = (1 + len(fields)) * (0.85 * WIDTH * section.panel_height + OVERHEAD)
+    figure, panels = new_figure(min(height, TALLEST), 1 + len(fields), sharex=True)
+    _ground(panels[0], section, scene.numerics.cell)
+    _circles(panels[0], look)
+    _toe(panels[0], look.surface)
+    for axes, name in zip(panels[1:], fields, strict=True):
+        _field(axes, section, strengths, name)
+    panels[-1].set_xlabel("x (m)")
+    letter(
+        panels, [fill(scene.title, TITLE), *(f"{about[0]} of realization {realization}" for about in fields.values())]
+    )
+    caption = f"{scene.title}: the ground with its toe, and the strength of realization {realization}."
+    return Illustration(figure, caption, caption)
+
+
+def _ground(axes: Axes, section: Section, cell: float) -> None:
+    surface = section.surface
+    outline = _outline(axes, surface, facecolor=GROUND, edgecolor="none")
+    x, y = (cell * np.arange(1 + whole_cells(length, cell)) for length in (surface.width, surface.top))
+    if max(x.size, y.size) <= MOST_LINES:
+        lines = [[(at, 0.0), (at, surface.top)] for at in x] + [[(0.0, at), (surface.width, at)] for at in y]
+        mesh = LineCollection(lines, colors=GREY, linewidths=0.25, alpha=0.6)
+        axes.add_collection(mesh)
+        mesh.set_clip_path(outline)
+    section.frame(axes)
+    axes.plot(surface.x, surface.y, color=BLACK, linewidth=1.4)
+    for wall, top in ((0.0, surface.y[0]), (surface.width, surface.y[-1])):
+        axes.plot([wall, wall], [0.0, top], color=BLACK, linewidth=2.5, clip_on=False)
+    axes.plot([0.0, surface.width], [0.0, 0.0], color=BLACK, linewidth=2.5, clip_on=False)
+
+
+def _circles(axes: Axes, look: FirstLook) -> None:
+    """Draw both circles; where they are the same, the dashes of one lie in the gaps of the other."""
+    _circle(axes, look.peak, BLUE, 0.0, "mean peak strength")
+    _circle(axes, look.residual, ORANGE, 5.0, "residual strength")
+    if axes.get_legend_handles_labels()[1]:
+        heading = "critical circle and its factor of safety (Bishop)"
+        axes.legend(loc="best", title=heading, title_fontsize=9, alignment="left")
+
+
+def _circle(axes: Axes, circle: SlipCircle | None, colour: str, begin: float, strength: str) -> None:
+    if circle is not None:
+        x = np.linspace(circle.entry, circle.exit, 200)
+        label = f"{circle.factor:.3g} with {strength}"
+        axes.plot(x, circle.elevation(x), color=colour, linestyle=(begin, (5, 5)), label=label)
+
+
+def _toe(axes: Axes, surface: Surface) -> None:
+    x, y = surface.toe
+    axes.plot(x, y, "v", color=BLACK, markersize=6, clip_on=False)
+    axes.annotate(f"toe, x = {x:.4g} m", (x, y), (6, 6), textcoords="offset points", fontsize=9)
+
+
+def _field(axes: Axes, section: Section, strengths: Strengths, name: str) -> None:
+    _, unit, per_si = FIELDS[name]
+    data, grid = strengths.to_dataset()[name], strengths.grid
+    rows, columns = grid.shape
+    values = per_si * data.values
+    is_ground = grid.y[:, None] < section.surface.height_at(grid.x)
+    box = (0.0, columns * grid.resolution, 0.0, rows * grid.resolution)
+    image = axes.imshow(values, origin="lower", extent=box, interpolation="nearest", cmap="viridis")
+    image.set_clim(np.nanmin(values[is_ground]), np.nanmax(values[is_ground]))
+    image.set_clip_path(_outline(axes, section.surface, facecolor="none", edgecolor="none"))
+    section.frame(axes)
+    axes.figure.colorbar(image, ax=axes, label=unit, aspect=12, pad=0.02)
+
+
+def _outline(axes: Axes, surface: Surface, **look: str) -> Polygon:
+    """Add the ground as a polygon."""
+    corners = [(0.0, 0.0), *zip(surface.x, surface.y, strict=True), (surface.width, 0.0)]
+    outline = Polygon(corners, closed=True, **look)
+    axes.add_patch(outline)
+    return outline
