@@ -6,6 +6,7 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 
+from campaign.commands.completion import HELP, SHELLS, PrintCompletion
 from campaign.commands.version import PrintVersion
 from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
@@ -14,6 +15,10 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_
 
 DEFAULT = ["run", "ma2023"]
 """What is done without arguments."""
+
+DESCRIPTION = """\
+How far will this slope run, and how sure are we? Without a command, "campaign" computes the built-in scene ma2023
+("campaign run ma2023"), which takes minutes."""
 
 COMMANDS = ("run", "new", "validate", "draw", "status", "report", "replay", "tradeoff", "scenes")
 """Modules of `campaign.commands`, in the order of the help."""
@@ -43,8 +48,9 @@ def _pin_threads() -> None:
 
 def parser() -> argparse.ArgumentParser:
     """Return what understands the command line."""
-    top = argparse.ArgumentParser(prog="campaign", description="How far will this slope run, and how sure are we?")
+    top = argparse.ArgumentParser(prog="campaign", description=DESCRIPTION)
     top.add_argument("--version", action=PrintVersion, nargs=0, help="versions of all that takes part in a result")
+    top.add_argument("--print-completion", action=PrintCompletion, choices=SHELLS, help=HELP)
     commands = top.add_subparsers(required=True, metavar="COMMAND")
     for name in COMMANDS:
         module = import_module(f"campaign.commands.{name}")

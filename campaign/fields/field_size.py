@@ -5,7 +5,7 @@ from typing import NamedTuple
 from campaign.fields.correlation import Correlation
 from campaign.fields.reference_grid import ReferenceGrid
 from campaign.fields.samplers import MEMORY_LIMIT
-from campaign.fields.strengths import AUTOMATIC, CELLS_PER_DISTANCE, correlation_of
+from campaign.fields.scene_sampler import AUTOMATIC, CELLS_PER_DISTANCE, correlation_of
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint
 from campaign.scene.ground_surface import surface_of

@@ -1,5 +1,6 @@
 """The command line: what it understands, what it answers, and its exit codes."""
 
+import shutil
 import subprocess
 import sys
 
@@ -45,6 +46,31 @@ def test_without_arguments_the_papers_scene_is_run(monkeypatch):
     monkeypatch.setattr(run, "carry_out", lambda options: seen.append(options.scene) or 0)
     assert cli.main([]) == 0
     assert seen == ["ma2023"]
+
+
+def test_the_help_says_that_no_command_at_all_computes_for_minutes(capsys):
+    with pytest.raises(SystemExit):
+        cli.main(["--help"])
+    assert '"campaign run ma2023"), which takes minutes' in " ".join(capsys.readouterr().out.split())
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh"])
+def test_the_completion_of_a_shell_knows_commands_and_options(shell, capsys):
+    with pytest.raises(SystemExit) as ended:
+        cli.main(["--print-completion", shell])
+    assert ended.value.code == 0
+    script = capsys.readouterr().out
+    assert all(word in script for word in (*cli.COMMANDS, "--allow-drift", "--realization"))
+    if shutil.which(shell):
+        assert subprocess.run([shell, "-n"], input=script, text=True, check=False).returncode == 0
+
+
+@pytest.mark.parametrize("command", cli.COMMANDS)
+def test_every_command_says_what_it_is_for(command, capsys):
+    with pytest.raises(SystemExit) as ended:
+        cli.main([command, "--help"])
+    assert ended.value.code == 0
+    assert capsys.readouterr().out.startswith(f"usage: campaign {command}")
 
 
 @pytest.mark.parametrize("arguments", [["nonsense"], ["run"], ["replay", "dir", "first"]])

@@ -76,14 +76,14 @@ def test_values_have_their_declared_types():
 def test_a_failed_march_lacks_what_has_no_meaning_then(monkeypatch):
     """Its series, time of rest, steps and clock are those up to the failure."""
     ground = prepare(small_scene("numerics.end_time=0.5 s"))
-    run = realization.run
+    run = realization.march_to_rest
 
     def failing(*arguments):
         ended = run(*arguments)
         monkeypatch.setattr(type(ended), "has_failed", True)
         return ended
 
-    monkeypatch.setattr(realization, "run", failing)
+    monkeypatch.setattr(realization, "march_to_rest", failing)
     record = ground.simulate(0)
     lengths = sizes(ground)
     for name, quantity in QUANTITIES.items():
