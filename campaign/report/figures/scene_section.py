@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Polygon
 
+from campaign.fields.properties import BY_NAME, SoilProperty
 from campaign.fields.strengths import Strengths
 from campaign.report.figures.section import Section
 from campaign.report.figures.style import BLACK, BLUE, GREY, ORANGE, WIDTH, Illustration, in_style, letter, new_figure
@@ -22,9 +23,6 @@ GROUND = "#f3ece0"
 
 MOST_LINES = 200
 """Of a mesh across the figure; finer ones would be a grey area."""
-
-FIELDS = {"cohesion": ("peak cohesion", "kPa", 1e-3), "friction_angle": ("peak friction angle", "deg", 180.0 / np.pi)}
-"""By name: what they are called, the unit they are shown in, and how many of it are one in SI."""
 
 TITLE = 80
 """Characters of a line above a panel."""
@@ -43,18 +41,16 @@ def save(scene: Scene, realization: int, path: Path) -> None:
 def scene_section(scene: Scene, look: FirstLook, strengths: Strengths, realization: int) -> Illustration:
     """Draw the section of a scene, and below it the strengths of a realization."""
     section = Section(look.surface, scene.numerics.cell, look.surface.width)
-    fields = {name: about for name, about in FIELDS.items() if name in strengths.to_dataset()}
+    fields = [BY_NAME[name] for name in strengths.names]
     height = (1 + len(fields)) * (0.85 * WIDTH * section.panel_height + OVERHEAD)
     figure, panels = new_figure(min(height, TALLEST), 1 + len(fields), sharex=True)
     _ground(panels[0], section, scene.numerics.cell)
     _circles(panels[0], look)
     _toe(panels[0], look.surface)
-    for axes, name in zip(panels[1:], fields, strict=True):
-        _field(axes, section, strengths, name)
+    for axes, row in zip(panels[1:], fields, strict=True):
+        _field(axes, section, strengths, row)
     panels[-1].set_xlabel("x (m)")
-    letter(
-        panels, [fill(scene.title, TITLE), *(f"{about[0]} of realization {realization}" for about in fields.values())]
-    )
+    letter(panels, [fill(scene.title, TITLE), *(f"{row.long_name} of realization {realization}" for row in fields)])
     caption = f"{scene.title}: the ground with its toe, and the strength of realization {realization}."
     return Illustration(figure, caption, caption)
 
@@ -97,18 +93,17 @@ def _toe(axes: Axes, surface: Surface) -> None:
     axes.annotate(f"toe, x = {x:.4g} m", (x, y), (6, 6), textcoords="offset points", fontsize=9)
 
 
-def _field(axes: Axes, section: Section, strengths: Strengths, name: str) -> None:
-    _, unit, per_si = FIELDS[name]
-    data, grid = strengths.to_dataset()[name], strengths.grid
+def _field(axes: Axes, section: Section, strengths: Strengths, row: SoilProperty) -> None:
+    grid = strengths.grid
     rows, columns = grid.shape
-    values = per_si * data.values
+    values = row.unit.shown_per_si * strengths[row.name]
     is_ground = grid.y[:, None] < section.surface.height_at(grid.x)
     box = (0.0, columns * grid.resolution, 0.0, rows * grid.resolution)
     image = axes.imshow(values, origin="lower", extent=box, interpolation="nearest", cmap="viridis")
     image.set_clim(np.nanmin(values[is_ground]), np.nanmax(values[is_ground]))
     image.set_clip_path(_outline(axes, section.surface, facecolor="none", edgecolor="none"))
     section.frame(axes)
-    axes.figure.colorbar(image, ax=axes, label=unit, aspect=12, pad=0.02)
+    axes.figure.colorbar(image, ax=axes, label=row.unit.shown, aspect=12, pad=0.02)
 
 
 def _outline(axes: Axes, surface: Surface, **look: str) -> Polygon:
