@@ -2,19 +2,20 @@
 
 from collections.abc import Mapping
 from copy import deepcopy
+from itertools import takewhile
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from campaign.scene.document import Document
-from campaign.scene.rules import cross_correlation, field, geometry, numerics, slide, soil
+from campaign.scene.document import Document, Location, location_of
+from campaign.scene.rules import cross_correlation, field, geometry, numerics, receptor, slide, soil
 from campaign.scene.scene import flatten
 from campaign.scene.wording import explain, wrong_value
 
 Key = tuple[str, ...]
 
 # A cell too large breaks rules of the ground as well, and is to be read first.
-SECTIONS = (numerics, geometry, slide, soil, field, cross_correlation)
+SECTIONS = (numerics, geometry, slide, soil, field, cross_correlation, receptor)
 
 
 def mistakes(document: Document, model: type[BaseModel], example: Document) -> list[str]:
@@ -34,14 +35,20 @@ def mistakes(document: Document, model: type[BaseModel], example: Document) -> l
         model.model_validate(document.tables)
     except ValidationError as error:
         details = error.errors(include_url=False)
-    faulty = {tuple(part for part in error["loc"] if isinstance(part, str)) for error in details}
+    faulty = {_key(error["loc"]) for error in details}
     sound = _sound_values(document, model, faulty, example)
     broken = (complaint for section in SECTIONS for complaint in section.RULES.broken(sound))
     return [
         *explain(details, document, model, example),
         *_geometry_choice(document),
-        *(wrong_value(tuple(key.split(".")), complaint, document) for key, complaint in broken),
+        *_repeated_names(document),
+        *(wrong_value(location_of(key), complaint, document) for key, complaint in broken),
     ]
+
+
+def _key(location: Location) -> Key:
+    """Return the key of a location; a mistake in a list, or in a table of an array, makes the whole faulty."""
+    return tuple(map(str, takewhile(lambda part: isinstance(part, str), location)))
 
 
 def _geometry_choice(document: Document) -> list[str]:
@@ -54,6 +61,18 @@ def _geometry_choice(document: Document) -> list[str]:
     if not {"slope", "surface"} & geometry.keys():
         return [f'{slope} is not given; add it with its height, for instance height = "15 m", or a geometry.surface.']
     return []
+
+
+def _repeated_names(document: Document) -> list[str]:
+    receptors = document.tables.get("receptor")
+    if not isinstance(receptors, list):
+        return []
+    names = [table.get("name") if isinstance(table, dict) else None for table in receptors]
+    return [
+        wrong_value(("receptor", number, "name"), f"receptor {names.index(name) + 1} has that name, too", document)
+        for number, name in enumerate(names)
+        if isinstance(name, str) and name in names[:number]
+    ]
 
 
 def _sound_values(document: Document, model: type[BaseModel], faulty: set[Key], example: Document) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from typing import Annotated, Any, get_args, get_origin
 
 from pydantic import BeforeValidator
 
-from campaign.scene.document import shown
+from campaign.scene.document import location_of, shown
 from campaign.scene.sections import SceneFile
 from campaign.scene.units import Kind, shown_in_unit
 from campaign.scene.wording import section_fields
@@ -25,8 +25,8 @@ def differences(here: Mapping[str, Any], there: Mapping[str, Any]) -> list[str]:
 
 def kind_of(key: str) -> Kind | None:
     """Return the dimension of the quantity at a dotted key, None for what is no quantity."""
-    *section, name = key.split(".")
-    field = section_fields(SceneFile, tuple(section)).get(name)
+    *section, name = location_of(key)
+    field = section_fields(SceneFile, tuple(section)).get(str(name))
     return next(_kinds(field.annotation, field.metadata), None) if field else None
 
 

@@ -1,13 +1,14 @@
 """The values a scene may take: quantities and numbers with their bounds, as annotated types for pydantic models."""
 
 from collections.abc import Callable, Iterable
+from functools import partial
 from itertools import pairwise
-from math import radians
+from math import isfinite, radians
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field
 
-from campaign.scene.units import Angle, Area, Length, Pressure, Time, of_a_size
+from campaign.scene.units import LENGTH, Angle, Area, Kind, Length, Pressure, Time, of_a_size, si_value
 
 LARGEST_COUNT = 10**9
 """Of realizations, more than anybody has time for."""
@@ -37,6 +38,25 @@ def _goes_forward(points: tuple[tuple[float, float], ...]) -> bool:
 
 def _descends(points: tuple[tuple[float, float], ...]) -> bool:
     return any(left > right for (_, left), (_, right) in pairwise(points))
+
+
+def _stretch(written: Any, kind: Kind) -> tuple[float, float]:
+    """Read a place, which is a stretch without length, or the two ends of a stretch [m]."""
+    ends = written if isinstance(written, list) else [written, written]
+    if len(ends) != 2:
+        raise ValueError('it must be a place, for instance "42 m", or both ends of a range, as ["40 m", "46 m"]')
+    near, far = (si_value(end, kind) for end in ends)
+    if not (isfinite(near) and isfinite(far)):
+        raise ValueError("a finite number is needed")
+    if isinstance(written, list) and near >= far:
+        raise ValueError("the range must increase; write its left end first, or a single place without brackets")
+    return near, far
+
+
+def _listed(written: Any) -> Any:
+    if not isinstance(written, list):
+        raise ValueError("it must be written under a line [[receptor]], with two brackets, once for each place")
+    return written
 
 
 POSITIVE = must("be greater than zero", lambda value: value > 0.0)
@@ -76,3 +96,7 @@ Profile = Annotated[
     must("have a width; its last x must be greater than 0", lambda points: points[-1][0] > 0.0),
     must("descend to the right somewhere, because slides go there; mirror it", _descends),
 ]
+
+Name = Annotated[str, must("be a line of text", lambda text: bool(text.strip()) and text.isprintable())]
+Stretch = Annotated[tuple[float, float], BeforeValidator(partial(_stretch, kind=LENGTH))]
+LISTED = BeforeValidator(_listed)

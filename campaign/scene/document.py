@@ -3,6 +3,7 @@
 import json
 import re
 import tomllib
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -16,6 +17,7 @@ Location = tuple[str | int, ...]
 
 SCENES = files("campaign") / "scenes"
 HEADER = re.compile(r"""\s*\[\s*([\w.\-\s]+?)\s*\]\s*(?:#.*)?""")
+ARRAY_HEADER = re.compile(r"""\s*\[\[\s*([\w.\-\s]+?)\s*\]\]\s*(?:#.*)?""")
 ASSIGNMENT = re.compile(r"""\s*([\w.\-"']+(?:\s*\.\s*[\w\-"']+)*)\s*=""")
 BARE_QUANTITY = re.compile(r"=\s*[+-]?[\d.]+(?:[eE][+-]?\d+)?\s*[A-Za-z°%]")
 
@@ -44,14 +46,13 @@ class Document:
     def place(self, location: Location) -> str:
         """Name a key and where it was written, for the start of a message."""
         keys = tuple(part for part in location if isinstance(part, str))
-        points = [part + 1 for part in location if isinstance(part, int)]
-        point = f", point {points[0]}" if points else ""
+        point = _point(location)
         for override in reversed(self.overrides):
             path = override_key(override)
             created = path[: len(keys)] == keys and keys not in self.lines
             if created or path == keys[: len(path)]:
                 return f"--set {'.'.join(path)}{point}"
-        known = (self.lines[keys[:n]] for n in range(len(keys), 0, -1) if keys[:n] in self.lines)
+        known = (self.lines[location[:n]] for n in range(len(location), 0, -1) if location[:n] in self.lines)
         line = next(known, None)
         return f"{'.'.join(keys)} ({self.file}{f', line {line}' if line else ''}{point})"
 
@@ -90,12 +91,18 @@ def document_of(text: str, overrides: Iterable[str] = (), file: str = "scene.tom
 
 
 def key_lines(text: str) -> dict[Location, int]:
-    """Map each key and section of a TOML text to its line, counted from 1."""
-    section: tuple[str, ...] = ()
+    """Map each key and section of a TOML text to its line, counted from 1; tables of an array have a number from 0."""
+    section: Location = ()
+    path: Location
     lines: dict[Location, int] = {}
+    tables: Counter[Location] = Counter()
     for number, line in enumerate(text.split("\n"), start=1):
         if header := HEADER.fullmatch(line):
             section = path = _split(header[1])
+        elif header := ARRAY_HEADER.fullmatch(line):
+            array = _split(header[1])
+            section = path = (*array, tables[array])
+            tables[array] += 1
         elif assignment := ASSIGNMENT.match(line):
             path = section + _split(assignment[1])
         else:
@@ -103,6 +110,11 @@ def key_lines(text: str) -> dict[Location, int]:
         for depth in range(1, len(path) + 1):
             lines.setdefault(path[:depth], number)
     return lines
+
+
+def location_of(dotted: str) -> Location:
+    """Return the location of a dotted key, as "receptor.0.x" for that of the first receptor."""
+    return tuple(int(part) if part.isdecimal() else part for part in dotted.split("."))
 
 
 def override_key(override: str) -> tuple[str, ...]:
@@ -212,3 +224,11 @@ def _override_value(text: str) -> Any:
 
 def _split(dotted: str) -> tuple[str, ...]:
     return tuple(part.strip().strip("\"'") for part in dotted.split("."))
+
+
+def _point(location: Location) -> str:
+    """Name the first number in a location, counted from 1: of a table by its section, of anything else as a point."""
+    for depth, part in enumerate(location):
+        if isinstance(part, int):
+            return f", {location[0] if depth == 1 else 'point'} {part + 1}"
+    return ""

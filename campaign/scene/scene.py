@@ -20,7 +20,7 @@ class Scene(SceneFile):
 
     def identity(self) -> dict[str, Any]:
         """Return, by dotted key, every SI value that decides what realization k is; ready for JSON."""
-        sections = self.model_dump(mode="json", include={"geometry", "soil", "field", "numerics", "slide"})
+        sections = self.model_dump(mode="json", include={"geometry", "soil", "field", "numerics", "slide", "receptor"})
         values = flatten(sections) | {"campaign.seed": self.campaign.seed}
         return {key: value for key, value in values.items() if value is not None and value != ADDED_LATER.get(key)}
 
@@ -30,9 +30,16 @@ class Scene(SceneFile):
 
 
 def flatten(tables: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Return the values of nested tables by dotted key."""
+    """Return the values of nested tables by dotted key; the tables of an array have their number, from 0, as name."""
     values: dict[str, Any] = {}
     for name, value in tables.items():
-        key = prefix + name
-        values |= flatten(value, f"{key}.") if isinstance(value, Mapping) else {key: value}
+        key, inner = prefix + name, _tables_in(value)
+        values |= {key: value} if inner is None else flatten(inner, f"{key}.")
     return values
+
+
+def _tables_in(value: Any) -> Mapping[str, Any] | None:
+    """Return a table, or an array of tables by their number; None for anything else."""
+    if isinstance(value, list | tuple) and all(isinstance(item, Mapping) for item in value):
+        return {str(number): item for number, item in enumerate(value)}
+    return value if isinstance(value, Mapping) else None

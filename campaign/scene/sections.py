@@ -2,17 +2,19 @@
 
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, create_model
+from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from campaign.fields.correlation import KERNELS
 from campaign.fields.properties import BY_NAME
 from campaign.scene.constraints import (
+    LISTED,
     NOT_NEGATIVE,
     POSITIVE,
     AcuteAngle,
     Count,
     Fraction,
     Line,
+    Name,
     OpenFraction,
     OptionalCov,
     PositiveArea,
@@ -24,6 +26,7 @@ from campaign.scene.constraints import (
     Profile,
     RightAngle,
     Seed,
+    Stretch,
     must,
     one_of,
 )
@@ -168,6 +171,13 @@ class Slide(Section):
     front_area: PositiveArea = 0.25
 
 
+class Receptor(Section):
+    """A place that a slide may reach: `x` in m from its near to its far end, which are the same for a point."""
+
+    name: Annotated[Name, Field(examples=["road"])]
+    x: Annotated[Stretch, Field(examples=["42 m"])]
+
+
 class Campaign(Section):
     """How many realizations, from which seed, and when they are enough."""
 
@@ -192,4 +202,5 @@ class SceneFile(Section):
     field: RandomField
     numerics: Numerics
     slide: Slide = Slide()
+    receptor: Annotated[tuple[Receptor, ...], Field(strict=False), LISTED] = ()
     campaign: Campaign

@@ -58,7 +58,9 @@ def wrong_value(location: Location, complaint: str, document: Document) -> str:
 def section_fields(model: type[BaseModel], location: Location) -> Mapping[str, Any]:
     """Return the fields of the section at `location`; none if it is not a section."""
     for part in location:
-        field = model.model_fields.get(str(part))
+        if isinstance(part, int):  # the fields of one table of an array are those of all
+            continue
+        field = model.model_fields.get(part)
         options = (field.annotation, *get_args(field.annotation)) if field else ()
         sections = [option for option in options if isinstance(option, type) and issubclass(option, BaseModel)]
         if not sections:
@@ -88,13 +90,14 @@ def _missing(location: Location, document: Document, model: type[BaseModel], exa
     *section, name = location
     if isinstance(name, int):
         return wrong_value(tuple(section), TWO_COORDINATES, document)
-    remedy = _as_written(location, example, section_fields(model, location))
+    field = section_fields(model, tuple(section))[name]
+    value = field.examples[0] if field.examples else example.value(location)
+    remedy = _as_written(location, value, section_fields(model, location))
     place = document.place(tuple(section)) if section else document.file
     return f"{place} has no {name}; add {remedy}."
 
 
-def _as_written(location: Location, example: Document, fields: Mapping[str, Any]) -> str:
-    value = example.value(location)
+def _as_written(location: Location, value: Any, fields: Mapping[str, Any]) -> str:
     if not isinstance(value, dict):
         return f"it, for instance {location[-1]} = {shown(value)}"
     needed = [key for key, field in fields.items() if field.is_required()]

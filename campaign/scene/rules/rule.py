@@ -7,7 +7,10 @@ Check = Callable[..., str | None]
 
 
 class Rule(NamedTuple):
-    """A check on the values of some keys; a complaint is reported at the key `place`."""
+    """A check on the values of some keys; a complaint is reported at the key `place`.
+
+    A first key with a star, as "receptor.*.x", is checked for each table of the array, and is the place.
+    """
 
     keys: tuple[str, ...]
     check: Check
@@ -37,6 +40,19 @@ class Rules(list[Rule]):
         values
             SI values by dotted key; keys that are absent or wrong by themselves are left out.
         """
-        for keys, check, place in self:
-            if all(key in values for key in keys) and (complaint := check(*(values[key] for key in keys))):
-                yield place, complaint
+        for rule in self:
+            for keys, place in _places(rule, values):
+                if all(key in values for key in keys) and (complaint := rule.check(*(values[key] for key in keys))):
+                    yield place, complaint
+
+
+def _places(rule: Rule, values: Mapping[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Yield the keys and the place of a rule, for each table where the first key has a star."""
+    first, *others = rule.keys
+    before, star, after = first.partition("*")
+    if not star:
+        yield rule.keys, rule.place
+        return
+    for name in values:
+        if name.startswith(before) and name.endswith(after):
+            yield (name, *others), name

@@ -1,0 +1,32 @@
+"""A receptor lies on the ground, where a slide can come."""
+
+from campaign.scene.ground_surface import surface_through
+from campaign.scene.rules.measures import Points
+from campaign.scene.rules.rule import Rules
+from solver.surface import slope_surface
+
+RULES = Rules()
+
+
+@RULES.on(
+    "receptor.*.x",
+    "geometry.slope.height",
+    "geometry.slope.angle",
+    "geometry.slope.crest",
+    "geometry.slope.plain",
+    "geometry.slope.foundation",
+)
+def _on_the_slope(stretch: list[float], *slope: float) -> str | None:
+    return _between_walls(stretch, slope_surface(*slope).width)
+
+
+@RULES.on("receptor.*.x", "geometry.surface")
+def _on_the_surface(stretch: list[float], surface: Points | None) -> str | None:
+    return None if surface is None else _between_walls(stretch, surface_through(surface).width)
+
+
+def _between_walls(stretch: list[float], width: float) -> str | None:
+    near, far = stretch
+    if near > 0.0 and far < width:
+        return None
+    return f"it must lie between the walls, at 0 m and {width:g} m; move it, or widen the ground"
