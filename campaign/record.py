@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,6 +58,9 @@ class Quantity:
     long_name: str
     dtype: str = "f8"
     average: Average | None = None
+
+
+T = TypeVar("T", bound=Quantity)
 
 
 @dataclass(frozen=True)
@@ -117,6 +120,11 @@ def fill_of(dtype: Any) -> float | int:
 def units_of(quantities: Mapping[str, Quantity]) -> dict[str, str]:
     """Return the unit of each quantity."""
     return {name: quantity.units for name, quantity in quantities.items()}
+
+
+def with_dims(quantities: Mapping[str, T], sizes: Mapping[str, int]) -> dict[str, T]:
+    """Return the quantities of which all dimensions exist: without receptors nothing is told of them."""
+    return {name: quantity for name, quantity in quantities.items() if sizes.keys() >= set(quantity.dims)}
 
 
 def missing_values(quantities: Mapping[str, Quantity], sizes: Mapping[str, int]) -> dict[str, Value]:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from campaign.record import Quantity, Record, Status, missing_values
 from campaign.results.table import Table, gather
-from campaign.simulation.contract import PreparedGround, sizes
+from campaign.simulation.contract import COORDINATES, SHARED, TEXT, PreparedGround, sizes
 from campaign.statistics.convergence import ConvergenceHistory
 from campaign.statistics.discretisation import METHOD, Discretisation
 from campaign.storage.columns import Columns
@@ -54,7 +54,7 @@ def build(
     quantities = ground.quantities
     table = gather(blocks, int(history.realizations[-1]), quantities, sizes(ground))
     variables = _per_realization(table, quantities) | _averages(table, quantities)
-    variables |= _deterministic(baseline, ground) | _convergence(history)
+    variables |= _deterministic(baseline, ground) | _convergence(history) | _given(ground, SHARED)
     if discretisation is not None:
         variables |= _discretisation(discretisation)
     attributes = {"Conventions": "CF-1.11", "n_particles": ground.n_particles, "toe_x": ground.toe_x}
@@ -82,15 +82,25 @@ def write(dataset: xr.Dataset, path: Path) -> None:
 
 
 def _coordinates(ground: PreparedGround, table: Table, history: ConvergenceHistory) -> Variables:
-    given = ground.coordinates
-    return {
+    return _given(ground, COORDINATES) | {
         "realization": _variable("realization", range(table.n), "1", "realization", "i4"),
-        "time": _variable("time", given["time"], "s", "time since release of strength"),
-        "x": _variable("x", given["x"], "m", "horizontal place"),
-        "particle_x": _variable("particle", given["particle_x"], "m", "initial horizontal place of the particle"),
-        "particle_y": _variable("particle", given["particle_y"], "m", "initial elevation of the particle"),
         "checkpoint": _variable("checkpoint", history.realizations, "1", "realizations looked at", "i4"),
     }
+
+
+def _given(ground: PreparedGround, rows: Mapping[str, Quantity]) -> Variables:
+    """Return what all realizations share, as far as the ground has it; CF tells the bounds of a place by its name."""
+    given, variables = ground.coordinates, {}
+    for name, row in rows.items():
+        if name not in given:
+            continue
+        bounds = f"{name}_bounds"
+        variables[name] = _variable(row.dims, given[name], row.units, row.long_name, row.dtype)
+        if row.dtype == TEXT:
+            del variables[name].attrs["units"]
+        if bounds in given:
+            variables[name].attrs["bounds"] = bounds
+    return variables
 
 
 def _per_realization(table: Table, quantities: Mapping[str, Quantity]) -> Variables:

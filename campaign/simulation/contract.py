@@ -5,10 +5,30 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
+import numpy as np
 from numpy.typing import NDArray
 
 from campaign.record import Quantity, Record, Status, missing_values, units_of
 from campaign.scene.scene import Scene
+
+TEXT = "O"
+"""The dtype of names."""
+
+COORDINATES: dict[str, Quantity] = {
+    "time": Quantity(("time",), "s", "time since release of strength"),
+    "x": Quantity(("x",), "m", "horizontal place"),
+    "particle_x": Quantity(("particle",), "m", "initial horizontal place of the particle"),
+    "particle_y": Quantity(("particle",), "m", "initial elevation of the particle"),
+    "receptor": Quantity(("receptor",), "", "name of the receptor", TEXT),
+    "receptor_x": Quantity(("receptor",), "m", "middle of the receptor"),
+}
+"""What labels the dimensions of records."""
+
+SHARED: dict[str, Quantity] = {
+    "receptor_x_bounds": Quantity(("receptor", "bound"), "m", "near and far end of the receptor"),
+    "initial_surface": Quantity(("x",), "m", "initial elevation of the ground surface"),
+}
+"""What else is the same in all realizations."""
 
 
 class Interrupted(Exception):  # noqa: N818  -- not an error: the caller asked for it
@@ -20,7 +40,7 @@ class PreparedGround(Protocol):
 
     @property
     def coordinates(self) -> Mapping[str, NDArray[Any]]:
-        """Arrays "time" [s], "x" [m], "particle_x" and "particle_y" [m]."""
+        """Arrays by the names of `COORDINATES` and `SHARED`, without those that the scene does not ask for."""
 
     @property
     def quantities(self) -> Mapping[str, Quantity]:
@@ -43,9 +63,15 @@ Prepare = Callable[[Scene, Path], PreparedGround]
 
 
 def sizes(ground: PreparedGround) -> dict[str, int]:
-    """Return the length of each dimension of a record."""
-    coordinates = ground.coordinates
-    return {"time": len(coordinates["time"]), "x": len(coordinates["x"]), "particle": ground.n_particles}
+    """Return the length of each dimension that a record may have."""
+    given = ground.coordinates
+    rows = given_rows(given)
+    return {dim: n for name, row in rows.items() for dim, n in zip(row.dims, np.shape(given[name]), strict=True)}
+
+
+def given_rows(given: Mapping[str, Any]) -> dict[str, Quantity]:
+    """Return the rows of `COORDINATES` and `SHARED` that a ground gives."""
+    return {name: row for name, row in (COORDINATES | SHARED).items() if name in given}
 
 
 def without_result(

@@ -4,18 +4,20 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from campaign.errors import RefusalError
 from campaign.fields.properties import PROPERTIES, SoilProperty, raised_to_floor, random_properties
 from campaign.fields.scene_sampler import strength_sampler
 from campaign.fields.strengths import Strengths, StrengthSampler
-from campaign.record import Quantity, Record
+from campaign.record import Quantity, Record, with_dims
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.scene import Scene
 from campaign.seeds import BASELINE
+from campaign.simulation.contract import TEXT, sizes
 from campaign.simulation.quantities import QUANTITIES
 from campaign.simulation.realization import never, nothing, simulate
 from campaign.simulation.solver_model import Array, column_edges, model_of, output_times
@@ -23,6 +25,7 @@ from solver.filling import ground_of
 from solver.in_situ import NotSettledError, in_situ_state
 from solver.march import March
 from solver.model import Model
+from solver.observables import deposit_surface
 from solver.particles import Particles, copy_particles
 from solver.surface import Surface
 
@@ -54,20 +57,34 @@ class Ground:
     sampler: StrengthSampler
 
     @cached_property
-    def coordinates(self) -> dict[str, Array]:
-        """Arrays "time" (s), "x" (m, centres of the columns of the deposit), "particle_x" and "particle_y" (m)."""
+    def coordinates(self) -> dict[str, NDArray[Any]]:
+        """Arrays by the names of `contract.COORDINATES` and `SHARED`; "x" is the middle of the deposit's columns."""
         edges, numerics = column_edges(self.model), self.scene.numerics
-        return {
+        places = {
             "time": output_times(numerics.end_time, numerics.output_interval),
             "x": 0.5 * (edges[1:] + edges[:-1]),
             "particle_x": self.lattice.x,
             "particle_y": self.lattice.y,
+            "initial_surface": deposit_surface(self.in_situ, 0.5 * self.model.particle_spacing, edges),
         }
+        return places | self._receptor_coordinates() if self.scene.receptor else places
+
+    def _receptor_coordinates(self) -> dict[str, NDArray[Any]]:
+        return {
+            "receptor": np.array([receptor.name for receptor in self.scene.receptor], dtype=TEXT),
+            "receptor_x": self.stretches.mean(axis=1),
+            "receptor_x_bounds": self.stretches,
+        }
+
+    @property
+    def stretches(self) -> Array:
+        """Near and far end in m of each receptor, (r, 2)."""
+        return np.array([receptor.x for receptor in self.scene.receptor]).reshape(-1, 2)
 
     @property
     def quantities(self) -> Mapping[str, Quantity]:
         """What a realization's record holds, by name."""
-        return QUANTITIES
+        return with_dims(QUANTITIES, sizes(self))
 
     @property
     def n_particles(self) -> int:
@@ -119,9 +136,8 @@ class Ground:
         campaign.errors.SamplerError
             If the realization has no valid strengths.
         """
-        return simulate(
-            self.model, self.released(realization), self.coordinates["time"], realization, interrupt, observe
-        )
+        start, times = self.released(realization), self.coordinates["time"]
+        return simulate(self.model, start, times, realization, interrupt, observe, self.stretches)
 
     def simulate_mean(self) -> Record:
         """Simulate the deterministic run, with mean strengths everywhere."""

@@ -10,8 +10,10 @@ from functools import cached_property
 
 import numpy as np
 
-from campaign.record import Average, Quantity, Value, missing_values, plain, units_of
+from campaign.record import Average, Quantity, Value, missing_values, plain, units_of, with_dims
+from campaign.simulation import receptors
 from campaign.simulation.detachment import detached_volume
+from campaign.simulation.receptors import ReceptorLog
 from campaign.simulation.solver_model import Array, column_edges
 from solver import observables
 from solver.march import MarchHistory
@@ -32,12 +34,15 @@ class Ending:
         The series in time and the particles at the end.
     begin : float
         When the simulation began, on the clock of `time.perf_counter` [s].
+    receptors : ReceptorLog, optional
+        What the slide did at the places that the scene names, if there are any.
     """
 
     model: Model
     start: Particles
     history: MarchHistory
     begin: float
+    receptors: ReceptorLog | None = None
 
     @property
     def particles(self) -> Particles:
@@ -59,6 +64,17 @@ class Ending:
         """Edges of the columns of the deposit surface [m]."""
         return column_edges(self.model)
 
+    @cached_property
+    def at_receptors(self) -> Mapping[str, Value]:
+        """What the slide did at receptors, by the names of `receptors.QUANTITIES`."""
+        return {} if self.receptors is None else self.receptors.values(self.deposit, self.start)
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """The length of each dimension of the record."""
+        sizes = {"time": self.history.runout.size, "x": self.edges.size - 1, "particle": self.start.x.size}
+        return sizes if self.receptors is None else sizes | {"receptor": self.receptors.near.size}
+
 
 @dataclass(frozen=True)
 class Measured(Quantity):
@@ -74,6 +90,20 @@ class Measured(Quantity):
 
     compute: Callable[[Ending], Value] = field(kw_only=True)
     after_failure: bool = field(default=False, kw_only=True)
+
+
+def taken_from(
+    source: Callable[[Ending], Mapping[str, Value]], quantities: Mapping[str, Quantity]
+) -> dict[str, Measured]:
+    """Return quantities that are computed together, each taken by its name from what `source` returns."""
+
+    def take(name: str) -> Callable[[Ending], Value]:
+        return lambda end: source(end)[name]
+
+    return {
+        name: Measured(quantity.dims, quantity.units, quantity.long_name, quantity.dtype, compute=take(name))
+        for name, quantity in quantities.items()
+    }
 
 
 DISPLACED = Average(
@@ -155,16 +185,17 @@ QUANTITIES: dict[str, Measured] = {
         compute=lambda end: time.perf_counter() - end.begin,
         after_failure=True,
     ),
+    **taken_from(lambda end: end.at_receptors, receptors.QUANTITIES),
 }
 
 UNITS = units_of(QUANTITIES)
 
 
 def measure(end: Ending, quantities: Mapping[str, Measured] = QUANTITIES) -> dict[str, Value]:
-    """Return the values of all quantities: arrays of the declared types, and numbers."""
-    sizes = {"time": end.history.runout.size, "x": end.edges.size - 1, "particle": end.start.x.size}
-    values = missing_values(quantities, sizes)
-    for name, quantity in quantities.items():
+    """Return the values of the quantities that the scene asks for: arrays of the declared types, and numbers."""
+    wanted = with_dims(quantities, end.sizes)
+    values = missing_values(wanted, end.sizes)
+    for name, quantity in wanted.items():
         if quantity.after_failure or not end.history.has_failed:
             values[name] = np.asarray(quantity.compute(end), dtype=quantity.dtype)
     return {name: plain(value) for name, value in values.items()}

@@ -7,6 +7,7 @@ from campaign.record import Record, Status
 from campaign.simulation.contract import Interrupted
 from campaign.simulation.detachment import CAME_APART
 from campaign.simulation.quantities import UNITS, Ending, measure
+from campaign.simulation.receptors import NO_RECEPTORS, ReceptorLog
 from campaign.simulation.solver_model import Array
 from solver.march import March, MarchEnd, MarchHistory, march_to_rest
 from solver.model import Model
@@ -30,6 +31,7 @@ def simulate(
     realization: int,
     interrupt: Callable[[], bool] = never,
     observe: Callable[[March], None] = nothing,
+    receptors: Array = NO_RECEPTORS,
 ) -> Record:
     """Simulate one realization.
 
@@ -46,6 +48,8 @@ def simulate(
         Asked at every output time whether to leave.
     observe : callable
         Sees the march at every output time.
+    receptors : ndarray (r, 2)
+        Near and far end in m of each place at which to look at the slide.
 
     Raises
     ------
@@ -53,16 +57,21 @@ def simulate(
         If `interrupt` says so.
     """
     begin = time.perf_counter()
+    log = ReceptorLog(receptors, model, times) if len(receptors) else None
 
     def watch(march: March) -> None:
         if interrupt():
             raise Interrupted
         observe(march)
+        if log is not None:
+            log.observe(march)
 
     history = march_to_rest(model, start, times, watch)
-    values = measure(Ending(model, start, history, begin))
+    values = measure(Ending(model, start, history, begin, log))
     reason = CAME_APART if values["detached_volume"] > 0.0 else history.reason
-    return Record(realization, status_of(history, model.criteria), reason, values, UNITS)
+    return Record(
+        realization, status_of(history, model.criteria), reason, values, {name: UNITS[name] for name in values}
+    )
 
 
 def status_of(history: MarchHistory, criteria: SlideCriteria) -> Status:

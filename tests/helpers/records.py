@@ -7,7 +7,7 @@ import numpy as np
 from campaign.record import Record, Status
 from campaign.simulation.quantities import QUANTITIES, UNITS
 
-SIZES = {"time": 5, "x": 3, "particle": 4}
+SIZES = {"time": 5, "x": 3, "particle": 4, "receptor": 2, "bound": 2}
 
 GROUND = SimpleNamespace(
     quantities=QUANTITIES,
@@ -18,6 +18,10 @@ GROUND = SimpleNamespace(
         "x": np.arange(float(SIZES["x"])),
         "particle_x": np.arange(float(SIZES["particle"])),
         "particle_y": np.ones(SIZES["particle"]),
+        "initial_surface": np.full(SIZES["x"], 4.0),
+        "receptor": np.array(["road", "Straße"], dtype=object),
+        "receptor_x": np.array([42.0, 46.0]),
+        "receptor_x_bounds": np.array([[42.0, 42.0], [45.0, 47.0]]),
     },
 )
 """What a dataset needs of the ground whose records these are."""

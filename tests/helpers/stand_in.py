@@ -14,13 +14,14 @@ from pathlib import Path
 
 import numpy as np
 
-from campaign.record import Quantity, Record, Status
+from campaign.record import Quantity, Record, Status, with_dims
 from campaign.scene import Scene, load_scene
 from campaign.seeds import BASELINE, Stream, generator
 from campaign.simulation.contract import Interrupted
 from campaign.simulation.quantities import QUANTITIES, UNITS
 
 SIZES = {"time": 11, "x": 7, "particle": 13}
+MEASURED = with_dims(QUANTITIES, SIZES)
 
 
 @dataclass
@@ -41,7 +42,7 @@ class StandIn:
 
     @property
     def quantities(self) -> dict[str, Quantity]:
-        return QUANTITIES
+        return MEASURED
 
     def simulate(self, realization: int, interrupt: Callable[[], bool]) -> Record:
         begin, length = time.monotonic(), float(os.environ.get("STAND_IN_SECONDS", "0"))
@@ -72,7 +73,7 @@ def record(seed: int, realization: int, cell: float) -> Record:
     rng = np.random.default_rng(0) if realization == BASELINE else generator(seed, Stream.FIELD, realization)
     values = {
         name: rng.normal(10, 0.5, [SIZES[dim] for dim in quantity.dims]).astype(quantity.dtype)
-        for name, quantity in QUANTITIES.items()
+        for name, quantity in MEASURED.items()
     }
     values["final_runout"] = values["final_runout"] + 2.0 * (1.0 - cell) * (1 + 0.1 * realization)
     values["displaced"] = rng.integers(0, 2, SIZES["particle"], "u1")

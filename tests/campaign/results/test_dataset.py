@@ -55,8 +55,11 @@ def test_dimensions_are_those_of_the_table(opened):
 
 
 def test_every_float_has_a_unit_and_every_variable_a_name(opened):
+    bounds = {variable.attrs.get("bounds") for variable in opened.variables.values()}
     for name, variable in opened.variables.items():
         assert "long_name" in variable.attrs, name
+        if name in bounds:  # after CF they have the unit of what they bound
+            continue
         assert variable.dtype.kind != "f" or "units" in variable.attrs, name
 
 
@@ -115,3 +118,19 @@ def test_a_write_that_fails_keeps_the_old_file(path, monkeypatch):
         dataset.write(xr.Dataset(), path)
     assert path.read_bytes() == before
     assert list(path.parent.iterdir()) == [path]
+
+
+def test_receptors_are_found_by_their_names_and_have_their_ends(opened):
+    street = opened.sel(receptor="Straße")
+    kept = np.array([record.values["front_reaches"][1] for record in RECORDS])
+    np.testing.assert_array_equal(street.front_reaches, kept)
+    assert float(street.receptor_x) == 46.0
+    assert opened.receptor_x.attrs["bounds"] == "receptor_x_bounds"
+    np.testing.assert_array_equal(street.receptor_x_bounds, [45.0, 47.0])
+    assert opened.receptor_depth.dims == ("realization", "receptor", "time")
+
+
+def test_the_initial_surface_lies_over_the_deposits_place(opened):
+    assert opened.initial_surface.dims == ("x",)
+    assert opened.initial_surface.attrs["units"] == "m"
+    assert opened.deposit_surface.dims[1:] == opened.initial_surface.dims

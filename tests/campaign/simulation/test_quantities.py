@@ -10,7 +10,7 @@ from small_campaign import small_scene
 from campaign.record import Average, Record, Status
 from campaign.results import dataset
 from campaign.seeds import BASELINE
-from campaign.simulation import quantities, realization
+from campaign.simulation import quantities, realization, receptors
 from campaign.simulation.contract import sizes
 from campaign.simulation.ground import prepare
 from campaign.simulation.quantities import QUANTITIES, UNITS, Measured, markdown
@@ -19,6 +19,7 @@ from campaign.storage.columns import columns_of
 from campaign.storage.record_store import RecordStore
 from solver.observables import fastest
 
+ROAD = 'receptor=[{name = "road", x = "42 m"}]'
 SPEED = Measured((), "m/s", "largest speed at the end", compute=lambda end: fastest(end.particles))
 LEFT = Measured(
     ("particle",),
@@ -66,7 +67,7 @@ def test_what_is_too_large_for_each_realization_enters_as_its_average():
 
 
 def test_values_have_their_declared_types():
-    record = prepare(small_scene("numerics.end_time=0.5 s")).simulate(0)
+    record = prepare(small_scene("numerics.end_time=0.5 s", ROAD)).simulate(0)
     assert record.values.keys() == QUANTITIES.keys() == record.units.keys()
     for name, quantity in QUANTITIES.items():
         assert np.asarray(record.values[name]).dtype == quantity.dtype, name
@@ -75,11 +76,11 @@ def test_values_have_their_declared_types():
 
 def test_a_failed_march_lacks_what_has_no_meaning_then(monkeypatch):
     """Its series, time of rest, steps and clock are those up to the failure."""
-    ground = prepare(small_scene("numerics.end_time=0.5 s"))
-    run = realization.march_to_rest
+    ground = prepare(small_scene("numerics.end_time=0.5 s", ROAD))
+    march_to_rest = realization.march_to_rest
 
     def failing(*arguments):
-        ended = run(*arguments)
+        ended = march_to_rest(*arguments)
         monkeypatch.setattr(type(ended), "has_failed", True)
         return ended
 
@@ -92,6 +93,13 @@ def test_a_failed_march_lacks_what_has_no_meaning_then(monkeypatch):
         assert quantity.after_failure or not np.nan_to_num(values).any(), name
     assert np.isnan(record.values["final_runout"])
     assert record.values["steps"] > 0
+
+
+def test_what_the_scene_does_not_ask_for_is_not_there():
+    ground = prepare(small_scene("numerics.end_time=0.5 s"))
+    record = ground.simulate(0)
+    assert record.values.keys() == ground.quantities.keys() == record.units.keys()
+    assert QUANTITIES.keys() - record.values.keys() == receptors.QUANTITIES.keys()
 
 
 def test_readme_lists_the_quantities_of_the_table():
