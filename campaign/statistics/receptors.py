@@ -1,0 +1,110 @@
+"""What a campaign says of the places that its scene names: how probable it is that a slide comes, and how it comes.
+
+Probabilities are unconditional: a realization that does not slide has not reached the place. What comes is told of the
+realizations whose front reaches it.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from scipy import stats
+
+from campaign.record import Status
+from campaign.statistics.intervals import Interval, Sample, quantile_interval, unknown
+
+REACHED = {
+    "front_reaches": "probability that the slide's front reaches it",
+    "moved_ground_reaches": "probability that any moved ground reaches it",
+}
+"""What may reach a receptor, and what the probability of that is called."""
+
+EFFECTS = {
+    "receptor_max_depth": "largest flow depth",
+    "receptor_max_velocity": "largest velocity",
+    "receptor_momentum_flux": "largest momentum flux",
+    "receptor_impact_pressure": "largest impact pressure",
+    "receptor_deposit": "final rise of the ground",
+}
+"""What a slide does there, and what that is called."""
+
+QUANTILES = {0.5: "median", 0.95: "95 % quantile"}
+
+
+class ReceptorEstimate(NamedTuple):
+    """One number about one receptor.
+
+    Attributes
+    ----------
+    receptor, quantity : str
+        Its name, and what the number is.
+    unit : str
+        "1" for a probability.
+    interval : Interval
+    open_bounds : tuple of float
+        Of a probability: what it would be if none, or all, of the realizations that leave it open had reached the
+        place, because they failed or were still on their way at the end; NaN for other numbers.
+    """
+
+    receptor: str
+    quantity: str
+    unit: str
+    interval: Interval
+    open_bounds: tuple[float, float] = (math.nan, math.nan)
+
+
+def receptor_estimates(data: xr.Dataset, confidence: float) -> list[ReceptorEstimate]:
+    """Return what a campaign says of each receptor: two probabilities, then quantiles given that the front reaches it.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        As `campaign.results.dataset` builds it; without receptors there is nothing to say.
+    confidence : float
+        Between 0 and 1.
+    """
+    if "receptor" not in data.sizes:
+        return []
+    names = map(str, data["receptor"].values)
+    return [
+        estimate
+        for number, name in enumerate(names)
+        for estimate in _of_one(name, data.isel(receptor=number), confidence)
+    ]
+
+
+def reach_probability(reaches: Sample, is_unsettled: Sample, confidence: float) -> tuple[Interval, tuple[float, float]]:
+    """Return the probability that something reaches a place, with its interval, and what the open realizations allow.
+
+    Parameters
+    ----------
+    reaches : ndarray (n,)
+        1 or 0 for each realization, NaN where it failed; these are left out.
+    is_unsettled : bool ndarray (n,)
+        Whether it was still moving at the end.
+    confidence : float
+        Of the interval, which is that of Clopper and Pearson (1934), Biometrika 26, 404-413.
+    """
+    failed = np.isnan(reaches)
+    reached, n = int(np.nansum(reaches)), int(np.count_nonzero(~failed))
+    unknowns = int(np.count_nonzero(failed | (is_unsettled & (reaches == 0.0))))
+    if n == 0:
+        return unknown(math.nan, 0), (math.nan, math.nan)
+    bounds = stats.binomtest(reached, n).proportion_ci(confidence, method="exact")
+    interval = Interval(reached / n, float(bounds.low), float(bounds.high), n)
+    return interval, (reached / len(reaches), (reached + unknowns) / len(reaches))
+
+
+def _of_one(name: str, data: xr.Dataset, confidence: float) -> Iterator[ReceptorEstimate]:
+    is_unsettled = data["status"].values == int(Status.not_settled)
+    for variable, called in REACHED.items():
+        interval, bounds = reach_probability(data[variable].values, is_unsettled, confidence)
+        yield ReceptorEstimate(name, called, "1", interval, bounds)
+    is_reached = data["front_reaches"].values == 1.0
+    for variable, called in EFFECTS.items():
+        values = data[variable].values[is_reached]
+        for probability, quantile in QUANTILES.items():
+            interval = quantile_interval(values, probability, confidence)
+            yield ReceptorEstimate(name, f"{quantile} of the {called}, where reached", data[variable].units, interval)
