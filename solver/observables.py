@@ -56,6 +56,34 @@ def sliding_volume(particles: Particles, start: Particles, criteria: SlideCriter
     return float(start.volume[is_displaced(particles, start, criteria)].sum())
 
 
+def is_at_surface(start: Particles, spacing: float) -> np.ndarray:
+    """Return the mask (n,) of the particles that are the highest of their column of the lattice, ``spacing`` m wide."""
+    column = (start.x / spacing).astype(int)
+    top = np.full(column.max() + 1, -np.inf)
+    np.maximum.at(top, column, start.y)
+    highest: np.ndarray = start.y == top[column]
+    return highest
+
+
+def retrogression(
+    particles: Particles, start: Particles, surface: Surface, criteria: SlideCriteria, spacing: float
+) -> float:
+    """Return how far behind the crest the ground surface belongs to the sliding mass, in m (0 if nowhere).
+
+    Parameters
+    ----------
+    particles, start : Particles
+        Now and before the slide.
+    surface : Surface
+        Before the slide.
+    criteria : SlideCriteria
+    spacing : float
+        Distance of particles on their lattice in m.
+    """
+    slid = is_displaced(particles, start, criteria) & is_at_surface(start, spacing)
+    return max(0.0, surface.crest_x - float(start.x[slid].min() - 0.5 * spacing)) if slid.any() else 0.0
+
+
 def kinetic_energy(particles: Particles) -> float:
     """Return ``1/2 m v^2`` summed over the particles, in J/m."""
     return float(0.5 * np.sum(particles.mass * (particles.velocity_x**2 + particles.velocity_y**2)))

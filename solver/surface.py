@@ -37,6 +37,15 @@ class Surface(NamedTuple):
         """Place ``(x, y)`` of the toe in m."""
         return self.toe_x, float(self.height_at(np.array([self.toe_x]))[0])
 
+    @property
+    def crest_x(self) -> float:
+        """Place in m of the crest: where the steepest face upslope of the toe begins, or the toe if there is none."""
+        upslope = self.x <= self.toe_x
+        x, y = self.x[upslope], self.y[upslope]
+        if x[-1] < self.toe_x:
+            x, y = np.append(x, self.toe[0]), np.append(y, self.toe[1])
+        return float(x[steepest_face(x, y)[0]]) if _descent(x, y) > 0.0 else self.toe_x
+
     def height_at(self, x: np.ndarray) -> np.ndarray:
         """Return the elevation in m above each ``x``; on a vertical face that of the ground to its right."""
         segment = np.clip(np.searchsorted(self.x, x, side="right") - 1, 0, self.x.size - 2)
@@ -62,10 +71,24 @@ def slope_surface(height: float, angle: float, crest: float, plain: float, found
 
 
 def foot_of_steepest_face(x: np.ndarray, y: np.ndarray) -> float:
-    """Return the place in m where the steepest face of a surface that descends to the right ends.
+    """Return the place in m where the steepest face of the surface through ``x, y`` (m) ends; see ``steepest_face``."""
+    return float(x[steepest_face(x, y)[1]])
+
+
+def _descent(x: np.ndarray, y: np.ndarray) -> float:
+    """Return the largest descent in m between two points of a surface, the lower one on the right."""
+    return float(np.max(np.where(x - x[:, None] >= 0.0, y[:, None] - y, 0.0)))
+
+
+def _is_steep(drop: float, run: float, steepness: float) -> bool:
+    return bool(drop > steepness * run if run > 0.0 else drop > 0.0)
+
+
+def steepest_face(x: np.ndarray, y: np.ndarray) -> tuple[int, int]:
+    """Return the numbers of the points between which a surface that descends to the right has its steepest face.
 
     The face is the steepest stretch between two points that makes up half of the largest descent or more, so that a
-    step of the ground is none. Its foot is where the ground beyond it falls less than half as steeply.
+    step of the ground is none. It begins and ends where the ground beside it falls less than half as steeply.
 
     Parameters
     ----------
@@ -79,7 +102,7 @@ def foot_of_steepest_face(x: np.ndarray, y: np.ndarray) -> float:
     """
     drop = y[:, None] - y
     run = x - x[:, None]
-    largest = np.max(np.where(run >= 0.0, drop, 0.0))
+    largest = _descent(x, y)
     if not largest > 0.0:
         raise ValueError("The ground nowhere descends to the right, where slides go; mirror it.")
     is_face = (run >= 0.0) & (drop >= 0.5 * largest)
@@ -87,7 +110,9 @@ def foot_of_steepest_face(x: np.ndarray, y: np.ndarray) -> float:
     steepest = np.max(steepness[is_face])
     # Of equally steep stretches the one that falls most is the whole face.
     candidates = is_face & (steepness >= steepest * (1.0 - 1e-9) if np.isfinite(steepest) else np.isinf(steepness))
-    foot = int(np.unravel_index(np.argmax(np.where(candidates, drop, -np.inf)), drop.shape)[1])
-    while foot + 1 < x.size and y[foot] - y[foot + 1] > 0.5 * steepest * (x[foot + 1] - x[foot]):
+    head, foot = map(int, np.unravel_index(np.argmax(np.where(candidates, drop, -np.inf)), drop.shape))
+    while head > 0 and _is_steep(y[head - 1] - y[head], x[head] - x[head - 1], 0.5 * steepest):
+        head -= 1
+    while foot + 1 < x.size and _is_steep(y[foot] - y[foot + 1], x[foot + 1] - x[foot], 0.5 * steepest):
         foot += 1
-    return float(x[foot])
+    return head, foot

@@ -21,6 +21,9 @@ COORDINATES: dict[str, Quantity] = {
     "particle_y": Quantity(("particle",), "m", "initial elevation of the particle"),
     "receptor": Quantity(("receptor",), "", "name of the receptor", TEXT),
     "receptor_x": Quantity(("receptor",), "m", "middle of the receptor"),
+    "property": Quantity(("property",), "", "random property of the soil", TEXT),
+    "box_x": Quantity(("box_x",), "m", "horizontal place of the middle of the box"),
+    "box_y": Quantity(("box_y",), "m", "elevation of the middle of the box"),
 }
 """What labels the dimensions of records."""
 

@@ -18,6 +18,7 @@ from campaign.scene.ground_surface import surface_of
 from campaign.scene.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import TEXT, sizes
+from campaign.simulation.field_summary import BoxMap, box_map
 from campaign.simulation.quantities import QUANTITIES
 from campaign.simulation.realization import never, nothing, simulate
 from campaign.simulation.solver_model import Array, column_edges, model_of, output_times
@@ -67,6 +68,11 @@ class Ground:
             "particle_y": self.lattice.y,
             "initial_surface": deposit_surface(self.in_situ, 0.5 * self.model.particle_spacing, edges),
         }
+        places |= {
+            "property": np.array([row.name for row in self.random_properties], dtype=TEXT),
+            "box_x": self.boxes.x,
+            "box_y": self.boxes.y,
+        }
         return places | self._receptor_coordinates() if self.scene.receptor else places
 
     def _receptor_coordinates(self) -> dict[str, NDArray[Any]]:
@@ -75,6 +81,11 @@ class Ground:
             "receptor_x": self.stretches.mean(axis=1),
             "receptor_x_bounds": self.stretches,
         }
+
+    @cached_property
+    def boxes(self) -> BoxMap:
+        """The boxes over which the random field is averaged for the records."""
+        return box_map(self.model.surface, self.sampler.grid)
 
     @property
     def stretches(self) -> Array:
@@ -136,8 +147,17 @@ class Ground:
         campaign.errors.SamplerError
             If the realization has no valid strengths.
         """
-        start, times = self.released(realization), self.coordinates["time"]
-        return simulate(self.model, start, times, realization, interrupt, observe, self.stretches)
+        field, times = self.draw(realization), self.coordinates["time"]
+        return simulate(
+            self.model,
+            self._with(field),
+            times,
+            realization,
+            interrupt,
+            observe,
+            receptors=self.stretches,
+            field_map=self.boxes.means(field),
+        )
 
     def simulate_mean(self) -> Record:
         """Simulate the deterministic run, with mean strengths everywhere."""
@@ -154,13 +174,16 @@ class Ground:
 
     def released(self, realization: int) -> Particles:
         """Return the in-situ state with the soil of a realization; nowhere is peak strength below residual."""
-        drawn = raised_to_floor(self._drawn(realization), self.scene)
+        return self._with(self.draw(realization))
+
+    def _with(self, field: Strengths) -> Particles:
+        drawn = raised_to_floor(self._at_particles(field), self.scene)
         means = {row.name: np.full(self.n_particles, row.mean(self.scene)) for row in PROPERTIES}
         return self.in_situ._replace(**{row.particle_array: (means | drawn)[row.name] for row in PROPERTIES})
 
     def raised_shares(self, realization: int) -> dict[str, float]:
         """Return the share of particles at which a drawn peak is below the residual and is raised to it, by name."""
-        drawn = self._drawn(realization)
+        drawn = self._at_particles(self.draw(realization))
         raised = raised_to_floor(drawn, self.scene)
         return {
             row.name: float(np.mean(raised[row.name] > drawn[row.name]))
@@ -168,9 +191,9 @@ class Ground:
             if row.floor_key
         }
 
-    def _drawn(self, realization: int) -> dict[str, Array]:
+    def _at_particles(self, field: Strengths) -> dict[str, Array]:
         within = np.minimum(self.lattice.x, self.model.surface.width)  # a wall may stand beyond by part of a cell
-        return self.draw(realization).at(within, self.lattice.y)
+        return field.at(within, self.lattice.y)
 
 
 def prepare(scene: Scene, directory: Path | None = None) -> Ground:

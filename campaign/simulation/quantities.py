@@ -4,107 +4,15 @@ A new quantity is a new row. `python -m campaign.simulation.quantities` prints t
 """
 
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
+from collections.abc import Mapping
 
 import numpy as np
 
-from campaign.record import Average, Quantity, Value, missing_values, plain, units_of, with_dims
-from campaign.simulation import receptors
+from campaign.record import Average, Value, missing_values, plain, units_of, with_dims
+from campaign.simulation import field_summary, receptors
 from campaign.simulation.detachment import detached_volume
-from campaign.simulation.receptors import ReceptorLog
-from campaign.simulation.solver_model import Array, column_edges
+from campaign.simulation.ending import Ending, Measured, taken_from
 from solver import observables
-from solver.march import MarchHistory
-from solver.model import Model
-from solver.particles import Particles
-
-
-@dataclass(frozen=True)
-class Ending:
-    """A march that has ended, with all that a quantity may be computed from.
-
-    Parameters
-    ----------
-    model : solver.model.Model
-    start : Particles
-        The in-situ state with the peak strengths of the realization.
-    history : solver.march.MarchHistory
-        The series in time and the particles at the end.
-    begin : float
-        When the simulation began, on the clock of `time.perf_counter` [s].
-    receptors : ReceptorLog, optional
-        What the slide did at the places that the scene names, if there are any.
-    """
-
-    model: Model
-    start: Particles
-    history: MarchHistory
-    begin: float
-    receptors: ReceptorLog | None = None
-
-    @property
-    def particles(self) -> Particles:
-        """The particles at the end."""
-        return self.history.particles
-
-    @property
-    def deposit(self) -> Particles:
-        """The particles at the end with their areas before the slide: grains that part gain area, a deposit not."""
-        return self.particles._replace(volume=self.start.volume)
-
-    @property
-    def half_spacing(self) -> float:
-        """Half the distance between particles on their lattice [m]."""
-        return 0.5 * self.model.particle_spacing
-
-    @cached_property
-    def edges(self) -> Array:
-        """Edges of the columns of the deposit surface [m]."""
-        return column_edges(self.model)
-
-    @cached_property
-    def at_receptors(self) -> Mapping[str, Value]:
-        """What the slide did at receptors, by the names of `receptors.QUANTITIES`."""
-        return {} if self.receptors is None else self.receptors.values(self.deposit, self.start)
-
-    @property
-    def sizes(self) -> dict[str, int]:
-        """The length of each dimension of the record."""
-        sizes = {"time": self.history.runout.size, "x": self.edges.size - 1, "particle": self.start.x.size}
-        return sizes if self.receptors is None else sizes | {"receptor": self.receptors.near.size}
-
-
-@dataclass(frozen=True)
-class Measured(Quantity):
-    """A quantity and the way to it.
-
-    Parameters
-    ----------
-    compute
-        From a march that has ended.
-    after_failure
-        Whether it means something, too, when the march has failed; else it is missing then.
-    """
-
-    compute: Callable[[Ending], Value] = field(kw_only=True)
-    after_failure: bool = field(default=False, kw_only=True)
-
-
-def taken_from(
-    source: Callable[[Ending], Mapping[str, Value]], quantities: Mapping[str, Quantity]
-) -> dict[str, Measured]:
-    """Return quantities that are computed together, each taken by its name from what `source` returns."""
-
-    def take(name: str) -> Callable[[Ending], Value]:
-        return lambda end: source(end)[name]
-
-    return {
-        name: Measured(quantity.dims, quantity.units, quantity.long_name, quantity.dtype, compute=take(name))
-        for name, quantity in quantities.items()
-    }
-
 
 DISPLACED = Average(
     "influence_probability",
@@ -157,6 +65,14 @@ QUANTITIES: dict[str, Measured] = {
         "volume that has come apart and lies ahead of the slide, per metre run",
         compute=lambda end: detached_volume(end.particles, end.start, end.model.surface, end.model.allocate_grid()),
     ),
+    "retrogression": Measured(
+        (),
+        "m",
+        "distance behind the crest to which the ground surface is displaced farther than slide.displaced",
+        compute=lambda end: observables.retrogression(
+            end.particles, end.start, end.model.surface, end.model.criteria, end.model.particle_spacing
+        ),
+    ),
     "settle_time": Measured(
         (), "s", "time from release to rest", compute=lambda end: end.history.settle_time, after_failure=True
     ),
@@ -176,13 +92,22 @@ QUANTITIES: dict[str, Measured] = {
         "1 where a particle is displaced farther than slide.displaced",
         "u1",
         DISPLACED,
-        compute=lambda end: observables.is_displaced(end.particles, end.start, end.model.criteria),
+        compute=lambda end: end.displaced,
     ),
     "wall_time": Measured(
         (),
         "s",
         "wall-clock time of the simulation",
         compute=lambda end: time.perf_counter() - end.begin,
+        after_failure=True,
+    ),
+    **taken_from(lambda end: end.field_means, field_summary.QUANTITIES),
+    "field_map": Measured(
+        ("property", "box_y", "box_x"),
+        "1",
+        "mean of the logarithm of the property in SI units over a box of the ground",
+        "f4",
+        compute=lambda end: end.field_map if end.field_map is not None else np.nan,
         after_failure=True,
     ),
     **taken_from(lambda end: end.at_receptors, receptors.QUANTITIES),

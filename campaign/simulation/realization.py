@@ -6,7 +6,8 @@ from collections.abc import Callable
 from campaign.record import Record, Status
 from campaign.simulation.contract import Interrupted
 from campaign.simulation.detachment import CAME_APART
-from campaign.simulation.quantities import UNITS, Ending, measure
+from campaign.simulation.ending import Ending
+from campaign.simulation.quantities import UNITS, measure
 from campaign.simulation.receptors import NO_RECEPTORS, ReceptorLog
 from campaign.simulation.solver_model import Array
 from solver.march import March, MarchEnd, MarchHistory, march_to_rest
@@ -32,6 +33,7 @@ def simulate(
     interrupt: Callable[[], bool] = never,
     observe: Callable[[March], None] = nothing,
     receptors: Array = NO_RECEPTORS,
+    field_map: Array | None = None,
 ) -> Record:
     """Simulate one realization.
 
@@ -50,6 +52,8 @@ def simulate(
         Sees the march at every output time.
     receptors : ndarray (r, 2)
         Near and far end in m of each place at which to look at the slide.
+    field_map : ndarray, optional
+        What `campaign.simulation.field_summary.BoxMap` makes of the random field, for the record.
 
     Raises
     ------
@@ -67,7 +71,7 @@ def simulate(
             log.observe(march)
 
     history = march_to_rest(model, start, times, watch)
-    values = measure(Ending(model, start, history, begin, log))
+    values = measure(Ending(model, start, history, begin, log, field_map))
     reason = CAME_APART if values["detached_volume"] > 0.0 else history.reason
     return Record(
         realization, status_of(history, model.criteria), reason, values, {name: UNITS[name] for name in values}

@@ -7,7 +7,7 @@ import numpy as np
 from campaign.record import Record, Status
 from campaign.simulation.quantities import QUANTITIES, UNITS
 
-SIZES = {"time": 5, "x": 3, "particle": 4, "receptor": 2, "bound": 2}
+SIZES = {"time": 5, "x": 3, "particle": 4, "receptor": 2, "bound": 2, "property": 2, "box_y": 3, "box_x": 4}
 
 GROUND = SimpleNamespace(
     quantities=QUANTITIES,
@@ -19,6 +19,9 @@ GROUND = SimpleNamespace(
         "particle_x": np.arange(float(SIZES["particle"])),
         "particle_y": np.ones(SIZES["particle"]),
         "initial_surface": np.full(SIZES["x"], 4.0),
+        "property": np.array(["cohesion", "friction_angle"], dtype=object),
+        "box_x": np.arange(float(SIZES["box_x"])),
+        "box_y": np.arange(float(SIZES["box_y"])),
         "receptor": np.array(["road", "Straße"], dtype=object),
         "receptor_x": np.array([42.0, 46.0]),
         "receptor_x_bounds": np.array([[42.0, 42.0], [45.0, 47.0]]),

@@ -53,6 +53,22 @@ def test_the_foot_does_not_depend_on_how_finely_a_surface_is_drawn():
     assert foot_of_steepest_face(fine, np.interp(fine, x, y)) == 35.0
 
 
+@pytest.mark.parametrize(
+    ("points", "toe", "crest"),
+    [
+        ([[0, 22], [20, 22], [35, 7], [75, 5]], 35.0, 20.0),
+        ([[0, 8], [10, 8], [10, 4], [30, 4]], 10.0, 10.0),
+        ([[0, 22], [20, 21.8], [24, 18], [35, 7], [75, 7]], 35.0, 20.0),  # the crest falls by a hundredth
+        ([[0, 19], [20, 19], [35, 4], [45, 4], [60, 10], [80, 10]], 35.0, 20.0),
+        ([[0, 19], [10, 19], [20, 9], [40, 9], [50, 4], [80, 4]], 50.0, 10.0),  # two faces, alike: the higher one
+        ([[0, 19], [10, 19], [20, 9], [40, 9], [45, 4], [80, 4]], 30.0, 10.0),  # a toe on the berm
+        ([[0, 4], [20, 8], [40, 4]], 10.0, 10.0),  # no face above the toe
+    ],
+)
+def test_the_crest_is_where_the_steepest_face_above_the_toe_begins(points, toe, crest):
+    assert Surface(*np.array(points, dtype=float).T, toe).crest_x == crest
+
+
 def test_ground_that_only_rises_has_no_foot():
     with pytest.raises(ValueError, match="nowhere descends"):
         foot_of_steepest_face(np.array([0.0, 10.0]), np.array([1.0, 2.0]))

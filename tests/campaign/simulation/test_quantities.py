@@ -12,8 +12,9 @@ from campaign.results import dataset
 from campaign.seeds import BASELINE
 from campaign.simulation import quantities, realization, receptors
 from campaign.simulation.contract import sizes
+from campaign.simulation.ending import Measured
 from campaign.simulation.ground import prepare
-from campaign.simulation.quantities import QUANTITIES, UNITS, Measured, markdown
+from campaign.simulation.quantities import QUANTITIES, UNITS, markdown
 from campaign.statistics.convergence import StoppingRule, convergence_history
 from campaign.storage.columns import columns_of
 from campaign.storage.record_store import RecordStore
