@@ -3,12 +3,18 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Any, NamedTuple, TypeAlias, TypeVar
+from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 Value: TypeAlias = NDArray[Any] | float | int
+
+Front: TypeAlias = Literal["mass", "tip"]
+"""The front of a slide: that of its mass, ahead of which `slide.front_area` lies, or its front-most particle."""
+
+FINAL_RUNOUT: dict[Front, str] = {"mass": "final_runout_mass", "tip": "final_runout"}
+"""The quantity that says how far a front came."""
 
 
 class Status(IntEnum):
@@ -21,13 +27,20 @@ class Status(IntEnum):
     diverged = 4
     left_domain = 5
     crashed = 6
+    reached_wall = 7
 
 
 FAILED = frozenset({Status.timeout, Status.diverged, Status.left_domain, Status.crashed})
-"""Without a usable result: counted, reported, and never part of a statistic."""
+"""Without a result: counted, reported, and never part of a statistic."""
 
-USABLE = frozenset({Status.slid, Status.not_settled})
-"""In the statistics of run-out, which are conditional on sliding (a run-out not yet settled is a lower bound)."""
+SLID = frozenset({Status.slid, Status.not_settled, Status.reached_wall})
+"""Slides, whose run-out is a lower bound where they had not settled yet or a wall of the model hindered them."""
+
+UNHINDERED = SLID - {Status.reached_wall}
+"""Slides whose run-out is the slope's and not that of the model's walls."""
+
+USABLE = SLID | {Status.no_slide}
+"""With a result: a slope that does not slide has a run-out of zero."""
 
 
 class Average(NamedTuple):
@@ -87,21 +100,28 @@ class Record:
 
 
 class RealizationSummary(NamedTuple):
-    """The part of a record that decisions rest on; the run-out is in m, the wall-clock time in s."""
+    """The part of a record that decisions rest on; run-outs are in m, the wall-clock time in s."""
 
     realization: int
     status: Status
     final_runout: float
+    final_runout_mass: float
     wall_time: float
+
+    def runout(self, front: Front) -> float:
+        """Return the run-out of a front in m: zero without a slide, NaN without a result."""
+        if self.status in SLID:
+            return self.final_runout_mass if front == "mass" else self.final_runout
+        return 0.0 if self.status is Status.no_slide else np.nan
 
 
 def summarize(record: Record) -> RealizationSummary:
     """Return the part of a record that decisions rest on."""
-    runout, wall_time = (float(record.values.get(name, np.nan)) for name in SUMMARIZED)
-    return RealizationSummary(record.realization, record.status, runout, wall_time)
+    numbers = (float(record.values.get(name, np.nan)) for name in SUMMARIZED)
+    return RealizationSummary(record.realization, record.status, *numbers)
 
 
-SUMMARIZED = ("final_runout", "wall_time")
+SUMMARIZED = RealizationSummary._fields[2:]
 """The quantities of a summary."""
 
 

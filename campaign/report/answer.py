@@ -4,11 +4,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.record import Status
-from campaign.report.error_budget import exceedance_interval, metres, percents
+from campaign.record import FINAL_RUNOUT, Status
+from campaign.report import estimates
 from campaign.results.results import Results
 from campaign.statistics.doubts import detached_fronts, doubts
-from campaign.statistics.intervals import Interval, mean_interval, quantile_interval, std_interval
+from campaign.statistics.intervals import Interval
+from campaign.statistics.stopping import RARE
+from campaign.statistics.total import has_mesh_error
+from campaign.statistics.wording import chance, chance_of_slide, chances, metres
 
 FAR = 0.95
 """The share of slides that stop before the distance named in the answer."""
@@ -17,6 +20,7 @@ OUTCOMES = {
     Status.slid: "slid and came to rest",
     Status.no_slide: "did not slide (nothing displaced farther than slide.failed)",
     Status.not_settled: "still moving at the end time; the run-out is a lower bound",
+    Status.reached_wall: "slid as far as a wall of the model; the run-out is a lower bound",
     Status.timeout: "failed: took too long",
     Status.diverged: "failed: diverged",
     Status.left_domain: "failed: left the domain",
@@ -34,29 +38,19 @@ class Outcome(NamedTuple):
 
 def answer(results: Results) -> str:
     """Return the result in a paragraph, the number that was asked for first."""
-    runouts, confidence = results.usable_runouts, results.confidence
-    if runouts.size == 0:
-        return f"No answer: none of the {results.realizations} realizations gave a run-out."
-    mean = mean_interval(runouts, confidence)
-    if not mean.is_known:
-        return f"One slide ran {runouts[0]:.2f} m. It takes more of them to say how sure that is."
-    sentences = [
-        f"The slide runs {mean.estimate:.2f} ± {mean.half_width:.2f} m on average ({100 * confidence:g} % confidence, "
-        f"{runouts.size} slides).",
-        _spread(results),
-        _farthest(results),
-        _comparison(results),
-        _beyond_sampling(results),
-    ]
-    return " ".join(filter(None, sentences))
+    outcomes = results.outcomes
+    if outcomes.usable == 0:
+        return f"No answer: all {results.realizations} realizations failed."
+    of_slides = [_runout(results), _walls(results), _spread(results), _farthest(results)] if outcomes.slides else []
+    return " ".join(filter(None, [_chance(results), *of_slides, _comparison(results), _beyond(results)]))
 
 
 def reasons_for_doubt(results: Results) -> list[str]:
     """Return sentences on why the run-outs or their intervals may not hold."""
-    unsettled, n = results.by_status()[Status.not_settled], results.usable_runouts.size
+    unsettled, n = results.by_status()[Status.not_settled], results.outcomes.slides
     censored = f"{unsettled} of the {n} run-outs are lower bounds: those slides were still moving at numerics.end_time."
-    volumes, mass_runouts = results.usable("detached_volume"), results.usable("final_runout_mass")
-    apart = detached_fronts(volumes, mass_runouts, results.scene.slide.front_area)
+    volumes, mass_runouts = results.of_slides("detached_volume"), results.of_slides(FINAL_RUNOUT["mass"])
+    apart = detached_fronts(volumes, mass_runouts, results.scene.slide.front_area, results.front)
     return [*doubts(results.runouts), *apart, *([censored] if unsettled else [])]
 
 
@@ -70,41 +64,88 @@ def outcomes(results: Results) -> list[Outcome]:
     ]
 
 
+def _chance(results: Results) -> str:
+    """Say how probable a slide is."""
+    probability, given = estimates.slide_probability(results), results.outcomes
+    counted = f"{given.slides} of {given.usable} realizations" + (" with a result" if results.has_failed.any() else "")
+    within, confidence = chance_of_slide(probability), f"{100 * results.confidence:g} % confidence"
+    if given.slides == 0:
+        stable = "It does not slide: " if probability.upper <= RARE else ""
+        more = "" if stable else " It takes more of them to call the slope stable."
+        return f"{stable}{counted} slid, so the probability of a slide is {within} ({confidence}).{more}"
+    if given.slides < given.usable:
+        within = f"{chance(probability.estimate)}, {within}"
+    return f"{counted} slid: the probability of a slide is {within} ({confidence})."
+
+
+def _runout(results: Results) -> str:
+    """Say how far the slide runs on average, with the total interval and what it consists of."""
+    total, mean = estimates.total_runout(results), estimates.mean_runout(results)
+    if not total.is_known:
+        return f"That slide ran {mean.estimate:.2f} m. It takes more of them to say how sure that is."
+    given = " where it slides" if mean.n < results.outcomes.usable else ""
+    return (
+        f"The slide runs {total.estimate:.2f} m on average{given}, {metres(total)} with {100 * results.confidence:g} % "
+        f"confidence: {_parts(results, mean)}."
+    )
+
+
+def _parts(results: Results, mean: Interval) -> str:
+    sampling, found = f"sampling ±{mean.half_width:.2f} m", results.discretisation
+    if found is None or not has_mesh_error(found):
+        return f"{sampling}; what the mesh adds is not estimated"
+    change = found.interval
+    mesh = f"mesh {change.estimate:+.2f} ± {change.half_width:.2f} m, which is what half the cell changes"
+    return f"{sampling} about the {mean.estimate:.2f} m counted; {mesh}"
+
+
+def _walls(results: Results) -> str:
+    hindered, slides = results.outcomes.hindered, results.outcomes.slides
+    if not hindered:
+        return ""
+    return (
+        f"This is a lower bound: {hindered} of {slides} slides reached a wall of the model and were stopped by it. "
+        "Give the slope a longer crest and plain."
+    )
+
+
 def _spread(results: Results) -> str:
-    std, runouts = std_interval(results.usable_runouts, results.confidence), results.usable_runouts
+    std, runouts = estimates.std_runout(results), results.slide_runouts
+    if runouts.size < 2:
+        return ""
     interval = f" ({metres(std)})" if std.is_known else ""
     return (
-        f"Single slides scatter about that by a standard deviation of {std.estimate:.2f} m{interval}; the shortest ran "
+        f"Single slides scatter by a standard deviation of {std.estimate:.2f} m{interval}; the shortest ran "
         f"{runouts.min():.2f} m, the longest {runouts.max():.2f} m."
     )
 
 
 def _farthest(results: Results) -> str:
-    far = quantile_interval(results.usable_runouts, FAR, results.confidence)
+    far = estimates.quantile_runout(results, FAR)
     if not far.is_known:
         return ""
     return f"{100 * FAR:g} % of the slides stop within {far.estimate:.2f} m ({metres(far)})."
 
 
 def _comparison(results: Results) -> str:
-    if not np.isfinite(results.deterministic):
+    distance, slides = results.deterministic, results.outcomes.slides
+    with_mean = "With mean strengths everywhere"
+    if not np.isfinite(distance):
         return "The deterministic run failed, so there is nothing to compare with."
-    share = exceedance_interval(results)
+    if distance == 0:
+        return f"{with_mean} it {'would not slide' if slides else 'does not slide either'}."
+    if not slides:
+        return f"{with_mean} it would slide and run {distance:.2f} m."
+    farther = estimates.exceedance(results, distance)
+    some = ""
+    if slides < results.outcomes.usable:
+        some = f", {chance(estimates.exceedance_given_sliding(results, distance).estimate)} of those that slide"
     return (
-        f"With mean strengths everywhere it would run {results.deterministic:.2f} m, which "
-        f"{100 * share.estimate:.0f} % of the slides exceed ({percents(share)})."
+        f"{with_mean} it would run {distance:.2f} m; {chance(farther.estimate)} of all realizations run farther "
+        f"({chances(farther)}){some}."
     )
 
 
-def _beyond_sampling(results: Results) -> str:
-    found = results.discretisation
-    if found is None or found.interval.n == 0:
-        return "These are sampling errors; the errors of the mesh and of the model are not among them."
-    return (
-        f"These are sampling errors; the mesh adds about {found.error:.2f} m to that of the mean (half the cell "
-        f"changes it by {_change(found.interval)}), the model an unknown one."
-    )
-
-
-def _change(mean: Interval) -> str:
-    return f"{mean.estimate:+.2f} ± {mean.half_width:.2f} m" if mean.is_known else f"{mean.estimate:+.2f} m"
+def _beyond(results: Results) -> str:
+    """Say what no interval holds."""
+    return "The error of the model is in no interval." if results.outcomes.slides > 1 else ""

@@ -5,13 +5,19 @@ from typing import NamedTuple
 import numpy as np
 
 from campaign.fields.properties import BY_NAME
+from campaign.report import estimates
 from campaign.results.results import Results
 from campaign.scene import Scene
 from campaign.scene.sections import RandomField
 from campaign.simulation.solver_model import softening_rate
-from campaign.statistics.intervals import Interval, failure_bounds, mean_interval, proportion_interval, std_interval
+from campaign.statistics.intervals import Interval
+from campaign.statistics.proportions import failure_bounds
+from campaign.statistics.total import has_mesh_error
+from campaign.statistics.wording import chance, chances, metres
 
 NOT_ESTIMATED = "not estimated"
+
+NO_RESULT = "no realization with a result"
 
 
 class Row(NamedTuple):
@@ -26,7 +32,16 @@ class Row(NamedTuple):
 
 def error_budget(results: Results) -> list[Row]:
     """Return what the answer's uncertainty consists of."""
-    return [*_sampling(results), *_failures(results), _discretisation(results), _energy(results)]
+    return [
+        *_chance(results),
+        *_runout(results),
+        *_exceedance(results),
+        *_walls(results),
+        *_failures(results),
+        _discretisation(results),
+        _release(results),
+        _energy(results),
+    ]
 
 
 def modelling_choices(scene: Scene) -> dict[str, str]:
@@ -47,66 +62,93 @@ def modelling_choices(scene: Scene) -> dict[str, str]:
     }
 
 
-def exceedance_interval(results: Results) -> Interval:
-    """Return the share of slides that run farther than the deterministic one."""
-    runouts = results.usable_runouts
-    return proportion_interval(int(np.count_nonzero(runouts > results.deterministic)), runouts.size, results.confidence)
+def _chance(results: Results) -> list[Row]:
+    probability = estimates.slide_probability(results)
+    value = chance(probability.estimate) if probability.n else NO_RESULT
+    bounds = chances(probability) if probability.n else ""
+    return [Row("Sampling", "probability of a slide", value, bounds, str(probability.n))]
 
 
-def metres(interval: Interval) -> str:
-    """Write the bounds of an interval in m."""
-    return f"{interval.lower:.2f} to {interval.upper:.2f} m" if interval.is_known else "not enough slides"
-
-
-def percents(interval: Interval) -> str:
-    """Write the bounds of a probability in per cent."""
-    return f"{100 * interval.lower:.0f} to {100 * interval.upper:.0f} %" if interval.is_known else "not enough slides"
-
-
-def _sampling(results: Results) -> list[Row]:
-    runouts, n = results.usable_runouts, str(results.usable_runouts.size)
-    if runouts.size == 0:
-        return [Row("Sampling", "run-out", "no slide", "", n)]
-    mean, std = mean_interval(runouts, results.confidence), std_interval(results.usable_runouts, results.confidence)
-    rows = [
-        Row("Sampling", "mean run-out", f"{mean.estimate:.2f} m", metres(mean), n),
-        Row("Sampling", "standard deviation", _known(std.estimate, ".2f", " m"), metres(std), n),
+def _runout(results: Results) -> list[Row]:
+    mean, std, n = estimates.mean_runout(results), estimates.std_runout(results), str(results.outcomes.slides)
+    if mean.n == 0:
+        return []
+    total = estimates.total_runout(results)
+    holds = "sampling and mesh" if has_mesh_error(results.discretisation) else "sampling alone"
+    return [
+        Row("Total", f"mean run-out of a slide, {holds}", f"{total.estimate:.2f} m", metres(total), n),
+        Row("Sampling", "mean run-out of a slide", f"{mean.estimate:.2f} m", metres(mean), n),
+        Row("Sampling", "standard deviation of a slide", _known(std.estimate, ".2f", " m"), metres(std), n),
     ]
-    if np.isfinite(results.deterministic):
-        share = exceedance_interval(results)
-        name = f"probability of more than {results.deterministic:.2f} m (deterministic)"
-        rows.append(Row("Sampling", name, f"{100 * share.estimate:.0f} %", percents(share), n))
+
+
+def _exceedance(results: Results) -> list[Row]:
+    distance = results.deterministic
+    if not distance > 0 or not results.outcomes.usable:
+        return []
+    farther = f"more than {distance:.2f} m (deterministic)"
+    rows = [_probability(f"probability of {farther}", estimates.exceedance(results, distance))]
+    if 0 < results.outcomes.slides < results.outcomes.usable:
+        rows.append(_probability("the same of a slide", estimates.exceedance_given_sliding(results, distance)))
     return rows
 
 
-def _failures(results: Results) -> list[Row]:
-    failed, n = int(np.count_nonzero(results.has_failed)), results.usable_runouts.size
-    if not failed or not n or not np.isfinite(results.deterministic):
+def _probability(name: str, share: Interval) -> Row:
+    return Row("Sampling", name, chance(share.estimate), chances(share), str(share.n))
+
+
+def _walls(results: Results) -> list[Row]:
+    hindered, slides = results.outcomes.hindered, results.outcomes.slides
+    if not hindered:
         return []
-    exceeding = int(np.count_nonzero(results.usable_runouts > results.deterministic))
-    lowest, highest = failure_bounds(exceeding, n, failed)
-    name = "the same probability, whatever the failed would have done"
-    bounds = f"{100 * lowest:.0f} to {100 * highest:.0f} %"
-    return [Row("Failures", name, f"{failed} failed", bounds, str(n + failed))]
+    return [Row("Walls", "mean run-out of a slide", "at least", f"{hindered} slides reached a wall", str(slides))]
+
+
+def _failures(results: Results) -> list[Row]:
+    failed, given, distance = int(np.count_nonzero(results.has_failed)), results.outcomes, results.deterministic
+    if not failed or not given.usable:
+        return []
+    counted = {"probability of a slide": given.slides}
+    if distance > 0:
+        counted[f"probability of more than {distance:.2f} m"] = given.beyond(distance)
+    return [_whatever_failed(name, count, given.usable, failed) for name, count in counted.items()]
+
+
+def _whatever_failed(name: str, count: int, usable: int, failed: int) -> Row:
+    lowest, highest = failure_bounds(count, usable, failed)
+    bounds = chances(Interval((lowest + highest) / 2, lowest, highest, usable))
+    return Row(
+        "Failures", f"{name}, whatever the failed would have done", f"{failed} failed", bounds, str(usable + failed)
+    )
 
 
 def _discretisation(results: Results) -> Row:
     found = results.discretisation
     if found is None:
         remedy = "give campaign.discretisation_pairs, or repeat the campaign with half the cell and compare"
-        return Row("Discretisation", "mean run-out", NOT_ESTIMATED, remedy, "")
-    change, name = found.interval, f"mean run-out, by what cells of {found.cell / 2:g} m change"
+        return Row("Discretisation", "mean run-out of a slide", NOT_ESTIMATED, remedy, "")
+    change, name = found.interval, f"mean run-out of a slide, changed by cells of {found.cell / 2:g} m"
     if change.n == 0:
-        return Row("Discretisation", name, NOT_ESTIMATED, "no pair of run-outs counts", "0")
+        return Row("Discretisation", name, NOT_ESTIMATED, "in no pair both slid", "0")
     bounds = f"{change.lower:+.2f} to {change.upper:+.2f} m" if change.is_known else "not enough pairs"
-    return Row("Discretisation", name, f"{found.error:.2f} m ({change.estimate:+.2f} m)", bounds, str(change.n))
+    return Row("Discretisation", name, f"{change.estimate:+.2f} m", bounds, str(change.n))
+
+
+def _release(results: Results) -> Row:
+    name, found, own = "deterministic run-out", results.release, results.deterministic
+    if found is None or not np.isfinite(found.runout(results.front)) or not np.isfinite(own):
+        return Row("Release", name, NOT_ESTIMATED, "it takes this run with either release protocol", "")
+    other = found.runout(results.front)
+    share = f" ({100 * (other / own - 1):+.1f} %)" if own > 0 else ""
+    both = f'{own:.2f} m with "{results.scene.numerics.gravity}", {other:.2f} m with "{found.other}"'
+    return Row("Release", f'{name}, changed by gravity = "{found.other}"', f"{other - own:+.2f} m{share}", both, "")
 
 
 def _energy(results: Results) -> Row:
-    errors = np.abs(results.data["energy_error"].values[results.is_usable])
+    errors = np.abs(results.of_slides("energy_error"))
     name = "created or lost, of the energy released"
     if errors.size == 0:
-        return Row("Energy balance", name, "no slide", "", "0")
+        return Row("Energy balance", name, "no slide" if results.outcomes.usable else NO_RESULT, "", "0")
     median, largest = f"median {100 * np.median(errors):.2g} %", f"at most {100 * errors.max():.2g} %"
     return Row("Energy balance", name, median, largest, str(errors.size))
 
@@ -125,8 +167,8 @@ def _softening(scene: Scene) -> str:
         return "none"
     if softening.internal_length is not None:
         average = f"{softening.law} with plastic strain averaged over {softening.internal_length:g} m"
-        factor = rate / softening.rate
-        coarse = f", times {factor:.2g} because bands of these cells are thicker" if factor > 1.0 else ""
+        cell = scene.numerics.cell
+        coarse = f", {rate:.3g} on cells of {cell:g} m for the same effect" if rate > softening.rate else ""
         return f"{average}, rate {softening.rate:g}{coarse}"
     return (
         f"{softening.law} with plastic strain, rate {rate:g} at this cell, in proportion to its "

@@ -140,7 +140,7 @@ def _replays(results: Results, directory: Path) -> Replays:
     check_digest(results.scene, results.data.attrs["scene_sha256"])
     ground = prepare(results.scene, directory)
     seen: dict[int, ReplayedSlide] = {}
-    for rank in RANKS.values() if results.usable_runouts.size else ():
+    for rank in RANKS.values() if results.outcomes.slides else ():
         realization = results.ranked(rank)
         if realization not in seen:
             seen[realization] = replay(ground, realization)

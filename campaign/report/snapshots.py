@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.record import Record
+from campaign.record import Front, Record
 from campaign.simulation.ground import Ground
 from campaign.simulation.solver_model import Array
 from solver.march import March
-from solver.observables import displacement, runout
+from solver.observables import displacement, runout, runout_mass
 
 
 class Snapshot(NamedTuple):
@@ -60,11 +60,12 @@ def replay(ground: Ground, realization: int, times: Sequence[float] = ()) -> Rep
     outputs = ground.coordinates["time"]
     wanted = {float(outputs[np.argmin(np.abs(outputs - time))]) for time in times}
     snapshots: list[Snapshot] = []
+    front = ground.scene.slide.front
 
     def observe(march: March) -> None:
         if snapshots and snapshots[-1].time not in wanted:
             snapshots.pop()
-        snapshots.append(snapshot(march))
+        snapshots.append(snapshot(march, front))
 
     record = ground.simulate(realization, observe=observe)
     released = ground.released(realization)
@@ -72,9 +73,10 @@ def replay(ground: Ground, realization: int, times: Sequence[float] = ()) -> Rep
     return ReplayedSlide(record, soil, ground.raised_shares(realization), snapshots)
 
 
-def snapshot(march: March) -> Snapshot:
-    """Return what a figure shows of a march."""
+def snapshot(march: March, front: Front) -> Snapshot:
+    """Return what a figure shows of a march, with the run-out of a front."""
     now, start = march.particles, march.start
     moved = displacement(now, start)
-    front = runout(now, start, march.model.surface, march.model.criteria)
-    return Snapshot(march.time, now.x.copy(), now.y.copy(), moved, now.plastic_strain.copy(), front)
+    measure = runout_mass if front == "mass" else runout
+    ran = measure(now, start, march.model.surface, march.model.criteria)
+    return Snapshot(march.time, now.x.copy(), now.y.copy(), moved, now.plastic_strain.copy(), ran)

@@ -9,12 +9,14 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from campaign.errors import RefusalError
-from campaign.record import FAILED, USABLE, Status
+from campaign.record import FAILED, FINAL_RUNOUT, SLID, Front, RealizationSummary, Status
 from campaign.scene import Scene, kept_scene
 from campaign.seeds import BASELINE
 from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.intervals import Sample
-from campaign.storage.formats import check_format
+from campaign.statistics.outcomes import Outcomes, outcomes_of
+from campaign.statistics.release import OTHER, ReleaseComparison
+from campaign.storage.formats import FORMAT, check_format
 from campaign.storage.layout import RESULTS
 
 
@@ -43,9 +45,14 @@ class Results:
         return self.scene.campaign.confidence
 
     @property
-    def is_usable(self) -> NDArray[np.bool_]:
-        """Whether the run-out of a realization counts, (realization,)."""
-        return self.has_status(USABLE)
+    def front(self) -> Front:
+        """The front whose run-out statistics are of."""
+        return self.scene.slide.front
+
+    @property
+    def has_slid(self) -> NDArray[np.bool_]:
+        """Whether a realization slid, (realization,)."""
+        return self.has_status(SLID)
 
     @property
     def has_failed(self) -> NDArray[np.bool_]:
@@ -53,20 +60,27 @@ class Results:
         return self.has_status(FAILED)
 
     @property
-    def runouts(self) -> Sample:
-        """Final run-out of realization 0, 1, 2, ... in m, NaN where it does not count."""
-        return np.where(self.is_usable, self.data["final_runout"].values, np.nan)
+    def outcomes(self) -> Outcomes:
+        """What became of the realizations, for statistics."""
+        columns = [self.data[name].values.tolist() for name in ("status", *FINAL_RUNOUT.values())]
+        rows = enumerate(zip(*columns, strict=True))
+        summaries = (_summary(k, status, mass, tip) for k, (status, mass, tip) in rows)
+        return outcomes_of(summaries, self.front)
 
     @property
-    def usable_runouts(self) -> Sample:
-        """Final run-outs that count, in m, in the order of realizations."""
-        return self.usable("final_runout")
+    def runouts(self) -> Sample:
+        """Final run-out of realization 0, 1, 2, ... in m, NaN where it did not slide."""
+        return np.where(self.has_slid, self.data[FINAL_RUNOUT[self.front]].values, np.nan)
+
+    @property
+    def slide_runouts(self) -> Sample:
+        """Final run-outs of the slides in m, in the order of realizations."""
+        return self.of_slides(FINAL_RUNOUT[self.front])
 
     @property
     def deterministic(self) -> float:
-        """Final run-out with mean strengths in m; NaN if that run failed."""
-        failed = int(self.data["deterministic_status"]) in FAILED
-        return np.nan if failed else float(self.data["deterministic_final_runout"])
+        """Final run-out with mean strengths in m: zero if it does not slide, NaN if that run failed."""
+        return self._deterministic("deterministic").runout(self.front)
 
     @property
     def discretisation(self) -> Discretisation | None:
@@ -76,9 +90,20 @@ class Results:
         differences, deterministic = self.data["paired_difference"], self.data["deterministic_paired_difference"]
         return Discretisation(self.scene.numerics.cell, differences.values, float(deterministic), self.confidence)
 
-    def usable(self, quantity: str) -> Sample:
-        """Return a scalar of the realizations whose run-out counts, in their order."""
-        values: Sample = self.data[quantity].values[self.is_usable]
+    @property
+    def release(self) -> ReleaseComparison | None:
+        """The deterministic run with the other release protocol; None where the campaign does not say."""
+        if "other_release_status" not in self.data:
+            return None
+        return ReleaseComparison(OTHER[self.scene.numerics.gravity], self._deterministic("other_release"))
+
+    def _deterministic(self, which: str) -> RealizationSummary:
+        mass, tip = (float(self.data[f"{which}_{name}"]) for name in FINAL_RUNOUT.values())
+        return _summary(BASELINE, int(self.data[f"{which}_status"]), mass, tip)
+
+    def of_slides(self, quantity: str) -> Sample:
+        """Return a scalar of the realizations that slid, in their order."""
+        values: Sample = self.data[quantity].values[self.has_slid]
         return values
 
     def has_status(self, statuses: Iterable[Status]) -> NDArray[np.bool_]:
@@ -90,24 +115,28 @@ class Results:
         return {status: int(np.count_nonzero(self.has_status([status]))) for status in Status}
 
     def final_runout(self, realization: int) -> float:
-        """Return the final run-out of one realization, or of the baseline, in m."""
+        """Return how far the front-most particle of one realization, or of the baseline, came in m."""
         if realization == BASELINE:
             return float(self.data["deterministic_final_runout"])
         return float(self.data["final_runout"].sel(realization=realization))
 
     def ranked(self, share: float) -> int:
-        """Return the realization with the given share of the usable run-outs below it: 0 the shortest, 1 the longest.
+        """Return the realization with the given share of the slides' run-outs below it: 0 the shortest, 1 the longest.
 
         Raises
         ------
         ValueError
-            If no run-out counts.
+            If nothing slid.
         """
         runouts = self.runouts
-        order = np.argsort(runouts, kind="stable")[: np.count_nonzero(self.is_usable)]
+        order = np.argsort(runouts, kind="stable")[: np.count_nonzero(self.has_slid)]
         if order.size == 0:
-            raise ValueError("No run-out counts, so none is the shortest, the median or the longest.")
+            raise ValueError("Nothing slid, so no run-out is the shortest, the median or the longest.")
         return int(self.data["realization"].values[order[round(share * (order.size - 1))]])
+
+
+def _summary(realization: int, status: int, mass: float, tip: float) -> RealizationSummary:
+    return RealizationSummary(realization, Status(status), tip, mass, np.nan)
 
 
 def open_results(directory: str | Path) -> xr.Dataset:
@@ -135,5 +164,11 @@ def read_results(directory: Path) -> Results:
         When there are none, or when this version cannot read them or the scene that made them.
     """
     data = open_results(directory)
+    kept = int(data.attrs.get("format", 0))
+    if kept < FORMAT:
+        raise RefusalError(
+            f"{directory / RESULTS} is of format {kept}, before statistics of all realizations were told from those of "
+            f"the slides (format {FORMAT}). campaign run {directory} makes it again from the records."
+        )
     overrides = filter(None, str(data.attrs["scene_overrides"]).split("\n"))
     return Results(data, kept_scene(str(data.attrs["scene"]), overrides))

@@ -12,12 +12,11 @@ from campaign.exit_codes import ExitCode
 from campaign.report.summary import summary
 from campaign.results import dataset
 from campaign.results.results import Results
+from campaign.running.beyond_sampling import BeyondSampling
 from campaign.running.level import Level
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import PreparedGround
-from campaign.statistics import discretisation
-from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.tally import Tally
 from campaign.storage import manifest
 from campaign.storage.layout import RESULTS
@@ -83,8 +82,7 @@ class CampaignDirectory:
         self,
         ground: PreparedGround,
         tally: Tally,
-        repeated: Tally | None,
-        stopped: str,
+        beyond: BeyondSampling,
         write_report: WriteReport | None,
     ) -> ExitCode:
         """Write the results, draw them, say how the campaign ended, and return its exit code.
@@ -93,21 +91,16 @@ class CampaignDirectory:
         ----------
         ground, tally
             Of the campaign.
-        repeated
-            The account of its realizations with half the cell.
-        stopped
-            Why not all was done, "" if it was.
+        beyond
+            What it knows of errors beyond sampling, and why not all was done.
         write_report
             Makes the report.
         """
-        code, verdict = _end(tally, stopped)
-        found = None
-        if repeated is not None and repeated.size is not None:
-            found = discretisation.estimate(self.scene, tally, repeated)
+        code, verdict = _end(tally, beyond.stopped)
         say(f"\n{self.scene.title}: {verdict}")
         try:
             if tally.prefix > 0:
-                result = self._result(ground, tally, verdict, found)
+                result = self._result(ground, tally, verdict, beyond)
                 say(summary(Results(result, self.scene)))
                 dataset.write(result, self.path / RESULTS)
             self.level.store.pack()
@@ -124,10 +117,11 @@ class CampaignDirectory:
             say("Give the same command again to continue.")
         return code
 
-    def _result(self, ground: PreparedGround, tally: Tally, verdict: str, found: Discretisation | None) -> xr.Dataset:
-        store = self.level.store
+    def _result(self, ground: PreparedGround, tally: Tally, verdict: str, beyond: BeyondSampling) -> xr.Dataset:
         about = attributes(self.scene, manifest.read(self.path), verdict)
-        return dataset.build(ground, store.columns(tally.prefix), store.read(BASELINE), tally.history(), about, found)
+        columns, baseline = self.level.store.columns(tally.prefix), self.level.store.read(BASELINE)
+        known = (beyond.discretisation, beyond.release)
+        return dataset.build(ground, columns, baseline, tally.history(), about, *known)
 
 
 def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:

@@ -4,9 +4,10 @@ import math
 import time
 from collections.abc import Callable
 
-from campaign.statistics.convergence import predicted_stop
+from campaign.statistics.forecast import predicted_stop
 from campaign.statistics.intervals import Interval, std_of
 from campaign.statistics.tally import Tally
+from campaign.statistics.wording import chance_of_slide
 from campaign.terminal import clock, duration, say
 
 PERIOD = 15.0
@@ -44,15 +45,22 @@ class Progress:
 
 
 def state_line(tally: Tally) -> str:
-    """Return counts and estimates, each with its interval."""
-    return f"{tally.done}/{tally.maximum} done, {tally.failed} failed{_estimates(tally)}"
+    """Return counts and estimates, each with its interval; counted is what the report counts, once that is settled."""
+    if tally.size is None:
+        return f"{tally.done}/{tally.maximum} done, {tally.failed} failed{_estimates(tally)}"
+    more = f" (and {tally.done - tally.size} beyond the end)" if tally.done > tally.size else ""
+    return f"{tally.size} realizations{more}, {tally.failed_in_prefix} failed{_estimates(tally)}"
 
 
 def _estimates(tally: Tally) -> str:
     latest = tally.latest()
-    if latest.n < 2:
+    slides, usable = latest.outcomes.slides, latest.outcomes.usable
+    if usable == 0:
         return ""
-    return f" | run-out {_mean(latest.mean)}, std {_std(std_of(latest.variance))}"
+    chance = f" | {slides} of {usable} slid, P(slide) {chance_of_slide(latest.slide_probability)}"
+    if slides < 2:
+        return chance
+    return f"{chance} | run-out {_mean(latest.mean)}, std {_std(std_of(latest.variance))}"
 
 
 def _mean(mean: Interval) -> str:
@@ -67,8 +75,9 @@ def _std(std: Interval) -> str:
 
 def _time_left(tally: Tally, rate: float) -> str:
     needed, forecast = tally.maximum, ""
-    if tally.prefix >= tally.rule.minimum:
-        predicted = predicted_stop(tally.latest(), tally.rule)
+    latest = tally.latest()
+    if tally.prefix >= (tally.rule.minimum if latest.outcomes.slides else tally.rule.block):
+        predicted = predicted_stop(latest, tally.rule)
         needed = int(min(predicted, tally.maximum)) if math.isfinite(predicted) else tally.maximum
         forecast = f" | about {predicted:.0f} needed" if math.isfinite(predicted) else ""
     if rate <= 0 or needed <= tally.done:

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 
 from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
+from campaign.running.beyond_sampling import BeyondSampling, beyond_sampling
 from campaign.running.campaign_directory import CampaignDirectory, WriteReport, opened
 from campaign.running.crew import Alone, Crew, Order
 from campaign.running.dispatcher import Dispatcher
-from campaign.running.half_cell import repeat_with_half_cell
 from campaign.running.level import Level
 from campaign.running.progress import Progress
+from campaign.running.side_run import Means
 from campaign.running.stop_request import StopRequest, listening
 from campaign.running.walltime import job_end
 from campaign.running.worker import LAST_CALL
@@ -113,10 +114,10 @@ def conduct(
         return dispatcher.stopped
 
     stopped = hand_out(directory.level, ground, tally)
-    repeated = None
+    beyond = BeyondSampling(None, None, stopped)
     if tally.size is not None:
-        repeated, stopped = repeat_with_half_cell(directory, tally, prepare, hand_out, stopped)
-    return directory.conclude(ground, tally, repeated, stopped, write_report)
+        beyond = beyond_sampling(directory.scene, tally, Means(directory.path, prepare, hand_out, stopped))
+    return directory.conclude(ground, tally, beyond, write_report)
 
 
 def _obstacle(stop: StopRequest, end: float) -> Callable[[float], str]:

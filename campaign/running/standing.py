@@ -5,8 +5,9 @@ from pathlib import Path
 from typing import Any
 
 from campaign.running.progress import state_line
-from campaign.statistics.convergence import StoppingRule
-from campaign.statistics.tally import Tally
+from campaign.scene.sections import Campaign, Slide
+from campaign.seeds import BASELINE
+from campaign.statistics.tally import Tally, tally_for
 from campaign.storage import manifest
 from campaign.storage.layout import HALF_CELL, RESULTS
 from campaign.storage.lock import DirectoryLock
@@ -26,10 +27,10 @@ def status(directory: Path) -> str:
         When there is no campaign.
     """
     about = manifest.read(directory)
-    tally, damaged = _tally(directory, about["campaign"])
+    tally, damaged = _tally(directory, about)
     lines = [f"{about['title']}: {_state(directory, about)}", f"  {state_line(tally)}"]
     lines += [f"  {sentence}" for sentence in damaged]
-    if repeated := len(RecordStore(directory / HALF_CELL).finished()):
+    if repeated := len(RecordStore(directory / HALF_CELL).finished() - {BASELINE}):
         lines.append(f"  {repeated} repeated with half the cell, for the discretisation error")
     results = directory / RESULTS
     return "\n".join([*lines, f"  {results}" if results.exists() else "  no results.nc yet"])
@@ -52,10 +53,9 @@ def _state(directory: Path, about: dict[str, Any]) -> str:
     return str(about["end"]["verdict"])
 
 
-def _tally(directory: Path, wanted: dict[str, Any]) -> tuple[Tally, list[str]]:
+def _tally(directory: Path, about: dict[str, Any]) -> tuple[Tally, list[str]]:
     """Return the account of the records on disk, and a sentence for each file that cannot be read."""
-    rule = StoppingRule(**{name: wanted[name] for name in StoppingRule.__dataclass_fields__})
-    tally = Tally(wanted["realizations"], rule, wanted["max_failed_fraction"])
+    tally = tally_for(Campaign.model_construct(**about["campaign"]), about.get("front", Slide().front))
     summaries, damaged = RecordStore(directory).summaries()
     for summary in summaries.values():
         tally.add(summary)

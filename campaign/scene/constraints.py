@@ -83,6 +83,9 @@ Fraction = Annotated[float, must("lie between 0 and 1", lambda value: 0.0 <= val
 OpenFraction = Annotated[
     float, must("lie between 0 and 1, both excluded; 95 % is written 0.95", lambda value: 0.0 < value < 1.0)
 ]
+SmallFraction = Annotated[
+    float, must("lie between 0 and 0.5, both excluded; 10 % is written 0.1", lambda value: 0.0 < value < 0.5)
+]
 
 # Strict validation would refuse the lists that TOML gives.
 Point = Annotated[tuple[Length, Length], Field(strict=False)]

@@ -10,6 +10,9 @@ from campaign.scene.sections import SceneFile
 ADDED_LATER = {"soil.law": "mohr-coulomb"}
 """Values of keys that older scenes do not have; with these a scene is what it was before."""
 
+NOT_IDENTITY = {"slide": {"front"}}
+"""What decides the statistics and not the realizations, though it stands among what does."""
+
 
 class Scene(SceneFile):
     """A valid scene, with the name and the text it came from; every number in SI units."""
@@ -20,7 +23,8 @@ class Scene(SceneFile):
 
     def identity(self) -> dict[str, Any]:
         """Return, by dotted key, every SI value that decides what realization k is; ready for JSON."""
-        sections = self.model_dump(mode="json", include={"geometry", "soil", "field", "numerics", "slide", "receptor"})
+        told = {"geometry", "soil", "field", "numerics", "slide", "receptor"}
+        sections = self.model_dump(mode="json", include=told, exclude=NOT_IDENTITY)
         values = flatten(sections) | {"campaign.seed": self.campaign.seed}
         return {key: value for key, value in values.items() if value is not None and value != ADDED_LATER.get(key)}
 

@@ -26,6 +26,7 @@ from campaign.scene.constraints import (
     Profile,
     RightAngle,
     Seed,
+    SmallFraction,
     Stretch,
     must,
     one_of,
@@ -169,6 +170,7 @@ class Slide(Section):
     displaced: PositiveLength = 0.1
     failed: PositiveLength = 1.0
     front_area: PositiveArea = 0.25
+    front: Literal["mass", "tip"] = "mass"
 
 
 class Receptor(Section):
@@ -185,6 +187,7 @@ class Campaign(Section):
     seed: Seed = 0
     mean_tolerance: OpenFraction = 0.01
     variance_tolerance: OpenFraction = 0.25
+    slide_probability_tolerance: SmallFraction = 0.1
     confidence: OpenFraction = 0.95
     minimum: Annotated[Count, must("be 10 or more, or no interval on a variance means much", lambda n: n >= 10)] = 100
     block: PositiveCount = 25

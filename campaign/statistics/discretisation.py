@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.record import USABLE, RealizationSummary
+from campaign.record import UNHINDERED, Front, RealizationSummary
 from campaign.scene import Scene
 from campaign.scene.cost import HALF_CELL_COST
 from campaign.seeds import BASELINE
@@ -31,7 +31,8 @@ class Discretisation(NamedTuple):
     cell : float
         The scene's own, in m.
     differences : array (pairs,)
-        Final run-out of realization 0, 1, ... with half the cell minus that with the cell, in m; NaN unless both count.
+        Final run-out of realization 0, 1, ... with half the cell minus that with the cell, in m; NaN unless both slid,
+        with no wall in the way.
     deterministic : float
         The same for the run with mean strengths.
     confidence : float
@@ -58,7 +59,7 @@ class Discretisation(NamedTuple):
 def with_half_cell(scene: Scene, pairs: int) -> Scene:
     """Return the scene of realizations 0 to `pairs` - 1 with half the cell; whatever depends on the cell follows it."""
     numerics = scene.numerics.model_copy(update={"cell": scene.numerics.cell / 2})
-    whole = {"realizations": pairs, "minimum": pairs + 1, "max_failed_fraction": 1.0}
+    whole = {"realizations": pairs, "minimum": pairs + 1, "block": pairs + 1, "max_failed_fraction": 1.0}
     timeout = {"realization_timeout": HALF_CELL_COST * scene.campaign.realization_timeout}
     return scene.model_copy(
         update={"numerics": numerics, "campaign": scene.campaign.model_copy(update=whole | timeout)}
@@ -73,8 +74,9 @@ def estimate(scene: Scene, coarse: Tally, fine: Tally) -> Discretisation:
 
 
 def _difference(realization: int, coarse: Tally, fine: Tally) -> float:
-    return _runout(fine.summaries[realization]) - _runout(coarse.summaries[realization])
+    fine_runout, runout = (_runout(tally.summaries[realization], tally.front) for tally in (fine, coarse))
+    return fine_runout - runout
 
 
-def _runout(summary: RealizationSummary) -> float:
-    return summary.final_runout if summary.status in USABLE else np.nan
+def _runout(summary: RealizationSummary, front: Front) -> float:
+    return summary.runout(front) if summary.status in UNHINDERED else np.nan

@@ -7,6 +7,7 @@ realizations hold in 60 % of the campaigns.
 
 import numpy as np
 
+from campaign.record import Front
 from campaign.statistics.intervals import Sample, kurtosis
 
 # A normal sample of 1000 has kurtosis 3.0 +- 0.15, and its largest value makes 1 % of the variance.
@@ -57,24 +58,32 @@ def heavy_realization(values: Sample) -> list[str]:
     ]
 
 
-def detached_fronts(volumes: Sample, mass_runouts: Sample, front_area: float) -> list[str]:
+def detached_fronts(volumes: Sample, mass_runouts: Sample, front_area: float, front: Front) -> list[str]:
     """Doubt run-outs that single pieces decide, ahead of the slide and no longer joined to it.
 
     Parameters
     ----------
     volumes, mass_runouts : array (n,)
-        What has come apart in the usable realizations [m3/m], and their `final_runout_mass` [m].
+        What has come apart in the slides [m3/m], and their `final_runout_mass` [m].
     front_area : float
         What `final_runout_mass` leaves ahead of it [m2]; from that much debris on it is measured in debris, too.
+    front : "mass" or "tip"
+        Whose run-out statistics are of.
     """
-    apart, beyond = np.count_nonzero(volumes > 0.0), np.count_nonzero(volumes >= front_area)
-    if apart == 0:
-        return []
-    doubt = (
-        f"In {apart} of {len(volumes)} slides the front-most ground has come apart, too far for the nodes to join it "
-        "to the slide: the run-out is that of this debris. Use final_runout_mass "
-        f"({mass_runouts.mean():.2f} m on average)"
-    )
-    if beyond == 0:
-        return [f"{doubt}."]
-    return [f"{doubt}, and raise slide.front_area: in {beyond} there is more debris than that."]
+    apart, beyond = (int(np.count_nonzero(which)) for which in (volumes > 0.0, volumes >= front_area))
+    if front == "tip" and apart:
+        return [
+            f"In {apart} of {len(volumes)} slides the front-most ground has come apart, too far for the nodes to join "
+            'it to the slide: the run-out is that of this debris. Use slide.front = "mass" '
+            f"({mass_runouts.mean():.2f} m on average){_too_much(beyond)}."
+        ]
+    if beyond:
+        return [
+            f"In {beyond} of {len(volumes)} slides more ground than slide.front_area has come apart: the run-out "
+            "is that of this debris. Use a larger slide.front_area."
+        ]
+    return []
+
+
+def _too_much(slides: int) -> str:
+    return f", and a larger slide.front_area: in {slides} there is more debris than that" if slides else ""

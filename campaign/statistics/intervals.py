@@ -153,20 +153,6 @@ def std_of(variance: Interval) -> Interval:
     return Interval(math.sqrt(estimate), math.sqrt(lower), math.sqrt(upper), n)
 
 
-def proportion_interval(successes: int, n: int, confidence: float) -> Interval:
-    """Proportion with Wilson's score interval, which stays inside [0, 1] and does not collapse at 0 or n successes.
-
-    Returns
-    -------
-    Interval
-        All NaN for n = 0.
-    """
-    if n == 0:
-        return unknown(math.nan, 0)
-    bounds = stats.binomtest(successes, n).proportion_ci(confidence, method="wilson")
-    return Interval(successes / n, float(bounds.low), float(bounds.high), n)
-
-
 def quantile_interval(values: Sample, probability: float, confidence: float) -> Interval:
     """Quantile with the interval between two order statistics, valid for every continuous distribution.
 
@@ -190,29 +176,3 @@ def quantile_interval(values: Sample, probability: float, confidence: float) -> 
         return unknown(math.nan, 0)
     bounds = stats.quantile_test(values, p=probability).confidence_interval(confidence)
     return Interval(float(np.quantile(values, probability)), float(bounds.low), float(bounds.high), n)
-
-
-def failure_bounds(exceeding: int, valid: int, failed: int) -> tuple[float, float]:
-    """Lowest and highest exceedance share when nothing is assumed about the failed realizations.
-
-    Failure may go with long run-out, so leaving failed realizations out may bias the share. None of them exceeding
-    gives the lower bound, all of them the upper one. The bounds hold the bias alone; sampling error comes on top.
-
-    Parameters
-    ----------
-    exceeding, valid, failed : int
-        Realizations above the threshold, with a usable result (including the exceeding ones), and without one.
-
-    Returns
-    -------
-    lowest, highest : float
-        Both NaN when there are no realizations.
-
-    References
-    ----------
-    J. L. Horowitz and C. F. Manski (1995), Econometrica 63, 281-302.
-    """
-    n = valid + failed
-    if n == 0:
-        return math.nan, math.nan
-    return exceeding / n, (exceeding + failed) / n

@@ -7,21 +7,13 @@ realizations in the result depends neither on ranks nor on the order in which th
 import math
 from typing import NamedTuple
 
-import numpy as np
-
-from campaign.record import FAILED, USABLE, RealizationSummary
+from campaign.record import FAILED, Front, RealizationSummary
 from campaign.scene import Scene
+from campaign.scene.sections import Campaign
 from campaign.seeds import BASELINE
-from campaign.statistics.convergence import (
-    LOOKS_IN_A_ROW,
-    Checkpoint,
-    ConvergenceHistory,
-    StoppingRule,
-    is_regular,
-    look,
-    tabulate,
-)
-from campaign.statistics.intervals import mean_interval
+from campaign.statistics.convergence import ConvergenceHistory, history_of, is_look
+from campaign.statistics.outcomes import Account
+from campaign.statistics.stopping import Checkpoint, StoppingRule, is_converged
 
 
 class RankReport(NamedTuple):
@@ -32,7 +24,7 @@ class RankReport(NamedTuple):
 
 
 class Tally:
-    """Finished realizations of a campaign of at most `maximum`, judged by `rule`.
+    """Finished realizations of a campaign of at most `maximum`, judged by `rule` on the run-out of `front`.
 
     Each realization is counted once, when it is added. Only a checkpoint looks at all of them, and once; what it need
     not know for its decision is computed when somebody asks.
@@ -45,28 +37,26 @@ class Tally:
         All realizations below it are finished, and so is the baseline.
     size : int or None
         Number of realizations in the result, once that is settled.
-    failed, failed_in_prefix : int
-        Failures among all finished realizations, and among those in the prefix.
+    failed : int
+        Failures among all finished realizations.
     longest : float
         Wall-clock time of the slowest realization [s], the baseline included.
     """
 
-    def __init__(self, maximum: int, rule: StoppingRule, max_failed_fraction: float) -> None:
+    def __init__(self, maximum: int, rule: StoppingRule, max_failed_fraction: float, front: Front) -> None:
         self.maximum = maximum
         self.rule = rule
         self.max_failed_fraction = max_failed_fraction
+        self.front: Front = front
         self.summaries: dict[int, RealizationSummary] = {}
         self.prefix = 0
         self.size: int | None = None
         self.too_many_failed = False
         self.failed = 0
-        self.failed_in_prefix = 0
         self.longest = 0.0
-        self._usable = np.empty(maximum)
-        self._n_usable = 0
-        self._checkpoints: list[tuple[int, int]] = []
-        self._looks: dict[int, Checkpoint] = {}
-        self._satisfied_in_a_row = 0
+        self._account = Account(maximum, front)
+        self._looks: list[Checkpoint] = []
+        self._latest: Checkpoint | None = None
 
     def add(self, summary: RealizationSummary) -> None:
         """Take a realization into the account, unless it is there already.
@@ -79,39 +69,21 @@ class Tally:
         self.failed += summary.status in FAILED and summary.realization != BASELINE
         self.longest = max(self.longest, summary.wall_time)  # which ignores NaN
         while self.size is None and BASELINE in self.summaries and self.prefix in self.summaries:
-            self._count(self.summaries[self.prefix])
+            self._account.add(self.summaries[self.prefix])
+            self.prefix += 1
             self._judge()
-
-    def _count(self, summary: RealizationSummary) -> None:
-        """Take the next realization into the prefix."""
-        if summary.status in USABLE and not math.isnan(summary.final_runout):
-            self._usable[self._n_usable] = summary.final_runout
-            self._n_usable += 1
-        self.failed_in_prefix += summary.status in FAILED
-        self.prefix += 1
+        if self.maximum == 0 and BASELINE in self.summaries:
+            self.size = 0
 
     def _judge(self) -> None:
-        at_end = self.prefix == self.maximum
-        if is_regular(self.prefix, self.rule):
-            self._checkpoints.append((self.prefix, self._n_usable))
-            self._satisfied_in_a_row = self._satisfied_in_a_row + 1 if self._satisfies() else 0
+        at_end, latest = self.prefix == self.maximum, self.latest()
+        if is_look(latest, self.rule):
+            self._looks.append(latest)
         elif not at_end:
             return
         self.too_many_failed = self.failed_in_prefix > self.max_failed_fraction * self.prefix
-        if at_end or self.too_many_failed or self._satisfied_in_a_row >= LOOKS_IN_A_ROW:
+        if at_end or self.too_many_failed or is_converged(self._looks, self.rule):
             self.size = self.prefix
-
-    def _satisfies(self) -> bool:
-        """Whether this checkpoint satisfies the rule; the mean is asked first, because it costs little."""
-        mean = mean_interval(self._usable[: self._n_usable], self.rule.confidence)
-        return mean.precision <= self.rule.mean_tolerance and self.latest().satisfies(self.rule)
-
-    def _look(self, realizations: int, usable: int) -> Checkpoint:
-        """Return the estimates from a prefix with so many usable run-outs; computed once."""
-        if realizations not in self._looks:
-            runouts = self._usable[:usable]
-            self._looks[realizations] = look(runouts, realizations, self.rule.confidence, self.threshold)
-        return self._looks[realizations]
 
     @property
     def done(self) -> int:
@@ -119,20 +91,25 @@ class Tally:
         return len(self.summaries) - (BASELINE in self.summaries)
 
     @property
+    def failed_in_prefix(self) -> int:
+        """Failures among the realizations of the prefix."""
+        return self._account.failed
+
+    @property
     def threshold(self) -> float:
         """Run-out of the baseline [m]; NaN when it is not there or failed."""
         baseline = self.summaries.get(BASELINE)
-        return baseline.final_runout if baseline is not None and baseline.status not in FAILED else math.nan
+        return math.nan if baseline is None else baseline.runout(self.front)
 
     def latest(self) -> Checkpoint:
-        """Return the estimates from the whole prefix."""
-        return self._look(self.prefix, self._n_usable)
+        """Return the estimates from the whole prefix; the same object as long as that is the same."""
+        if self._latest is None or self._latest.realizations != self.prefix:
+            self._latest = Checkpoint(self._account.outcomes(), self.rule.confidence, self.threshold)
+        return self._latest
 
     def history(self) -> ConvergenceHistory:
         """Return the estimates at the checkpoints of the prefix, and at its end."""
-        end = (self.prefix, self._n_usable)
-        places = self._checkpoints if end in self._checkpoints[-1:] else [*self._checkpoints, end]
-        return tabulate([self._look(*place) for place in places], self.rule)
+        return history_of(self._looks, self.latest(), self.rule)
 
     def checkpoints(self) -> int:
         """Return how many checkpoints the prefix has passed."""
@@ -141,8 +118,17 @@ class Tally:
 
 def tally_of(scene: Scene) -> Tally:
     """Return the empty account of a scene's campaign."""
-    wanted = scene.campaign
+    return tally_for(scene.campaign, scene.slide.front)
+
+
+def tally_for(wanted: Campaign, front: Front) -> Tally:
+    """Return the empty account of a campaign that is judged on the run-out of `front`."""
     rule = StoppingRule(
-        wanted.mean_tolerance, wanted.variance_tolerance, wanted.confidence, wanted.minimum, wanted.block
+        wanted.mean_tolerance,
+        wanted.variance_tolerance,
+        wanted.confidence,
+        wanted.minimum,
+        wanted.block,
+        wanted.slide_probability_tolerance,
     )
-    return Tally(wanted.realizations, rule, wanted.max_failed_fraction)
+    return Tally(wanted.realizations, rule, wanted.max_failed_fraction, front)

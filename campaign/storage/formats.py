@@ -6,6 +6,7 @@ One number covers a results directory with everything in it: manifest, records, 
 |---|---|---|
 | 0 | 0.1.0 | no number anywhere; a pack holds a group for each realization |
 | 1 | 0.2.0 | every file says its format; records and packs begin with a checksum of their bytes; packs hold columns |
+| 2 | 0.3.0 | the status `reached_wall`; the dataset tells statistics of all realizations from those of the slides |
 
 A change that an older program would misread raises the number. A new quantity does not: a reader takes what a record
 holds, and what it lacks is missing.
@@ -15,10 +16,10 @@ from importlib.metadata import PackageNotFoundError, version
 
 from campaign.errors import RefusalError
 
-FORMAT = 1
+FORMAT = 2
 """What this program writes; it reads all formats up to this one."""
 
-READER = "0.2.0"
+READER = "0.3.0"
 """The oldest version of the program that reads `FORMAT`."""
 
 

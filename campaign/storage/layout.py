@@ -22,6 +22,9 @@ EVERY_ATTEMPT = "rank-*"
 HALF_CELL = "half-cell"
 """Holds the realizations repeated with half the cell, in the same layout."""
 
+OTHER_RELEASE = "other-release"
+"""Holds the deterministic run with the other release protocol, in the same layout."""
+
 
 def realization_name(realization: int) -> str:
     """Return what the files of a realization are called, without a suffix."""

@@ -60,6 +60,7 @@ def _about(scene: Scene) -> Manifest:
         "overrides": list(scene.overrides),
         "identity": scene.identity(),
         "digest": scene.digest(),
+        "front": scene.slide.front,
         "campaign": scene.campaign.model_dump(mode="json"),
     }
 

@@ -61,10 +61,13 @@ def attributes(scene: Scene, manifest: Mapping[str, Any], verdict: str) -> dict[
         "source": f"runout-campaign {program_version()}",
         "history": "; ".join(f"{start['at']} on {start['ranks']} ranks of {start['host']}" for start in starts),
         "seed": str(rule.seed),
+        "front": scene.slide.front,
         "stopping_rule": (
-            f"half-width of the mean within {rule.mean_tolerance:g} and of the variance within "
-            f"{rule.variance_tolerance:g} of the estimate at {rule.confidence:g} confidence, at two checkpoints in a "
-            f"row; checkpoints at {rule.minimum} realizations and every {rule.block} after; at most {rule.realizations}"
+            f"half-width of the probability of a slide within {rule.slide_probability_tolerance:g}, and, unless slides "
+            f"are rare, of the mean run-out within {rule.mean_tolerance:g} and of its variance within "
+            f"{rule.variance_tolerance:g} of the estimate, at {rule.confidence:g} confidence, at two checkpoints in a "
+            f"row; checkpoints at {rule.minimum} realizations and every {rule.block} after; at most "
+            f"{rule.realizations}; without a slide, as soon as that shows that slides are rare"
         ),
         "verdict": verdict,
         "scene": scene.text,

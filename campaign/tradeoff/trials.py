@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from campaign.errors import RefusalError, SamplerError
-from campaign.record import USABLE
+from campaign.record import FINAL_RUNOUT, UNHINDERED
 from campaign.scene import Scene, kept_scene
 from campaign.scene.cost import realization_seconds
 from campaign.seeds import BASELINE
@@ -212,6 +212,6 @@ class Bench:
             return np.nan, "the budget of CPU time is used up"
         except Exception as error:
             return np.nan, f"crashed ({error!r})"
-        if record.status not in USABLE:
+        if record.status not in UNHINDERED:
             return np.nan, record.reason or record.status.name
-        return float(np.asarray(record.values["final_runout"])), ""
+        return float(np.asarray(record.values[FINAL_RUNOUT[ground.scene.slide.front]])), ""

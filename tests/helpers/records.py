@@ -37,6 +37,7 @@ def make_record(realization: int, status: Status = Status.slid, reason: str = ""
         array = rng.integers(0, 2, [SIZES[dim] for dim in quantity.dims]).astype(quantity.dtype)
         values[name] = array if array.ndim else array.item()
     values["final_runout"] = float(rng.normal(10, 0.5))
+    values["final_runout_mass"] = values["final_runout"] - 0.25
     return Record(realization, status, reason, values, UNITS)
 
 

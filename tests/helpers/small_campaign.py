@@ -51,7 +51,7 @@ def made_up(ground, realization, runout, status=Status.slid, reason=""):
     values = missing_values(ground.quantities, sizes(ground))
     if status not in FAILED:
         values = {name: np.zeros_like(np.asarray(values[name])) for name in ground.quantities}
-        values["final_runout"] = runout
+        values["final_runout"] = values["final_runout_mass"] = runout
         values["runout"] = runout * np.linspace(0, 1, len(ground.coordinates["time"]))
         values["settle_time"] = np.nan if status is Status.not_settled else 5.0
         values["deposit_surface"] = np.full(len(ground.coordinates["x"]), 4.0)

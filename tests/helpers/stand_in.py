@@ -76,6 +76,7 @@ def record(seed: int, realization: int, cell: float) -> Record:
         for name, quantity in MEASURED.items()
     }
     values["final_runout"] = values["final_runout"] + 2.0 * (1.0 - cell) * (1 + 0.1 * realization)
+    values["final_runout_mass"] = values["final_runout"]
     values["displaced"] = rng.integers(0, 2, SIZES["particle"], "u1")
     values["wall_time"] = time.process_time()
     return Record(realization, Status.slid, "", values, UNITS)

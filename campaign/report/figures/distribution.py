@@ -8,7 +8,7 @@ from scipy import stats
 
 from campaign.report.figures.style import BLACK, BLUE, GREY, ORANGE, Illustration, letter, need, need_slides, new_figure
 from campaign.results.results import Results
-from campaign.statistics.intervals import proportion_interval
+from campaign.statistics import proportions
 
 FEWEST_FOR_BANDS = 20
 """A 5 % quantile is not more than the smallest of fewer."""
@@ -16,9 +16,9 @@ FEWEST_FOR_BANDS = 20
 
 def curves(results: Results) -> Illustration:
     """Draw run-out over time (figure 6 of the paper)."""
-    n = results.usable_runouts.size
+    n = results.slide_runouts.size
     need_slides(n, 1)
-    runouts = results.data["runout"].values[results.is_usable]
+    runouts = results.data["runout"].values[results.has_slid]
     time = results.data["time"].values
     figure, (axes,) = new_figure(4.2)
     lines = [np.column_stack([time, runout]) for runout in runouts]
@@ -30,17 +30,17 @@ def curves(results: Results) -> Illustration:
     axes.set(xlim=(0, _last_motion(results)), ylim=(0, None), xlabel="time since release (s)", ylabel="run-out (m)")
     axes.legend(loc="upper left")
     bands = "" if n >= FEWEST_FOR_BANDS else f" No quantiles are drawn from fewer than {FEWEST_FOR_BANDS} slides."
-    half = float(np.median(np.nan_to_num(results.data["settle_time"].values[results.is_usable], nan=np.inf)))
+    half = float(np.median(np.nan_to_num(results.data["settle_time"].values[results.has_slid], nan=np.inf)))
     rest = f" Half of them rest after {half:.1f} s." if np.isfinite(half) else ""
-    caption = f"Run-out of {n} slides over time.{rest}{bands}"
+    caption = f"Run-out of the front-most particle of {n} slides over time.{rest}{bands}"
     return Illustration(figure, caption, f"Run-out against time for {n} slides; all rise and level off.")
 
 
 def histogram(results: Results) -> Illustration:
     """Draw the distribution of the final run-out, and the run-out of each realization (figure 7 of the paper)."""
-    n = results.usable_runouts.size
+    n = results.slide_runouts.size
     need_slides(n, 2)
-    runouts, ids = results.usable_runouts, results.data["realization"].values[results.is_usable]
+    runouts, ids = results.slide_runouts, results.data["realization"].values[results.has_slid]
     mean, std = float(np.mean(runouts)), float(np.std(runouts, ddof=1))
     need(std > 0, "All final run-outs are equal, so they have no distribution to draw.")
     figure, panels = new_figure(6.6, 2, height_ratios=[3, 2])
@@ -67,13 +67,13 @@ def histogram(results: Results) -> Illustration:
 
 
 def exceedance(results: Results) -> Illustration:
-    """Draw the probability that a slide runs farther than a distance."""
-    n = results.usable_runouts.size
+    """Draw the probability of a run-out beyond a distance, whether or not the slope slides."""
+    n = results.slide_runouts.size
     need_slides(n, 2)
-    runouts = np.sort(results.usable_runouts)
+    runouts = np.sort(results.slide_runouts)
     distances = np.concatenate([[max(0.0, runouts[0] - 0.05 * runouts[-1])], runouts, [1.03 * runouts[-1]]])
-    beyond = [int(np.count_nonzero(runouts > distance)) for distance in distances]
-    shares = [proportion_interval(count, n, results.confidence) for count in beyond]
+    given = results.outcomes
+    shares = [proportions.exceedance(given, distance, results.confidence) for distance in distances]
     figure, (axes,) = new_figure(4.0)
     lower, upper = [share.lower for share in shares], [share.upper for share in shares]
     label = f"{100 * results.confidence:g} % interval"
@@ -83,15 +83,19 @@ def exceedance(results: Results) -> Illustration:
     )
     if np.isfinite(results.deterministic):
         axes.axvline(results.deterministic, color=BLACK, linestyle="--", label="deterministic")
-    axes.set(yscale="log", ylim=(0.3 / n, 1.3), xlim=(distances[0], distances[-1]))
+    axes.set(yscale="log", ylim=(0.3 / given.usable, 1.3), xlim=(distances[0], distances[-1]))
     axes.yaxis.set_major_formatter("{x:g}")
     axes.set(xlabel="distance from the initial toe (m)", ylabel="probability of a longer run-out (-)")
     axes.legend(loc="lower left")
     caption = (
-        f"Probability that a slide runs farther than a distance, counted in {n} slides, with its interval (Wilson). "
+        f"Probability of a run-out beyond a distance, counted in {given.usable} realizations with {n} slides, with its "
+        "interval (Wilson); without a slide the run-out is zero. "
         f"Nothing was seen beyond {runouts[-1]:.2f} m; that alone leaves a probability of up to {upper[-1]:.2g}."
     )
-    alt = f"Falling curve of the exceedance probability from 1 at {runouts[0]:.2f} m to 1/{n} at {runouts[-1]:.2f} m."
+    alt = (
+        f"Falling curve of the exceedance probability from {shares[0].estimate:.2g} at {runouts[0]:.2f} m to "
+        f"{1 / given.usable:.2g} at {runouts[-1]:.2f} m."
+    )
     return Illustration(figure, caption, alt)
 
 
@@ -111,7 +115,7 @@ def _deterministic_curve(axes: Axes, results: Results) -> None:
 def _last_motion(results: Results) -> float:
     """Return when all slides are at rest, or the last time (s)."""
     end = float(results.data["time"].values[-1])
-    settled = results.data["settle_time"].values[results.is_usable]
+    settled = results.data["settle_time"].values[results.has_slid]
     return min(end, 1.03 * float(np.max(settled))) if np.isfinite(settled).all() else end
 
 

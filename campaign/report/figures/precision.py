@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from campaign.report.figures.style import BLACK, BLUE, GREEN, Illustration, letter, need, need_slides, new_figure
 from campaign.results.results import Results
 from campaign.statistics.intervals import Interval, Sample, mean_interval, std_interval
+from campaign.statistics.verdict import CONVERGED
 
 FIRST = 5
 """The variance has an interval from here on."""
@@ -20,9 +21,9 @@ POINTS = 80
 
 def convergence(results: Results) -> Illustration:
     """Draw mean and standard deviation of the run-out over the number of realizations, with tolerances."""
-    rule, n = results.scene.campaign, results.usable_runouts.size
+    rule, n = results.scene.campaign, results.slide_runouts.size
     need_slides(n, FEWEST)
-    need(np.ptp(results.usable_runouts) > 0, "All final run-outs are equal, so nothing converges.")
+    need(np.ptp(results.slide_runouts) > 0, "All final run-outs are equal, so nothing converges.")
     figure, panels = new_figure(5.4, 2, sharex=True)
     estimate: list[tuple[str, Callable[[Sample, float], Interval], float]] = [
         ("mean", mean_interval, rule.mean_tolerance),
@@ -30,7 +31,7 @@ def convergence(results: Results) -> Illustration:
     ]
     for panel, (name, interval, tolerance) in zip(panels, estimate, strict=True):
         _history(panel, results, interval)
-        last = interval(results.usable_runouts, results.confidence).estimate
+        last = interval(results.slide_runouts, results.confidence).estimate
         _tolerance(panel, last * _within(name, tolerance))
         panel.set_ylabel(f"{name} (m)")
     _dots(panels, results)
@@ -54,10 +55,10 @@ def _within(name: str, tolerance: float) -> Sample:
 
 
 def _history(axes: Axes, results: Results, interval: Callable[[Sample, float], Interval]) -> None:
-    runouts, is_usable = results.data["final_runout"].values, results.is_usable
-    first = int(np.flatnonzero(is_usable)[FIRST - 1]) + 1
+    runouts, has_slid = results.runouts, results.has_slid
+    first = int(np.flatnonzero(has_slid)[FIRST - 1]) + 1
     counts = np.unique(np.linspace(first, results.realizations, POINTS).round().astype(int))
-    rows = np.array([interval(runouts[:count][is_usable[:count]], results.confidence)[:3] for count in counts])
+    rows = np.array([interval(runouts[:count][has_slid[:count]], results.confidence)[:3] for count in counts])
     label = f"{100 * results.confidence:g} % interval"
     axes.fill_between(counts, rows[:, 1], rows[:, 2], color=BLUE, alpha=0.25, linewidth=0, label=label)
     axes.plot(counts, rows[:, 0], color=BLUE, label="estimate")
@@ -75,14 +76,16 @@ def _tolerance(axes: Axes, bounds: Sample) -> None:
 def _dots(panels: list[Axes], results: Results) -> None:
     data = results.data
     looks = data["checkpoint"].values
-    for panel, values in zip(panels, (data["mean"].values, np.sqrt(data["variance"].values)), strict=True):
+    for panel, values in zip(
+        panels, (data["runout_mean"].values, np.sqrt(data["runout_variance"].values)), strict=True
+    ):
         panel.plot(looks, values, "o", markersize=3, color=BLUE)
 
 
 def _mark_stop(panels: list[Axes], results: Results) -> str:
     verdict = str(results.data.attrs["verdict"])
-    if not verdict.startswith("converged"):
+    if not verdict.startswith(CONVERGED):
         return f"The campaign is {verdict}." if verdict.startswith("not converged") else f"Verdict: {verdict}."
     for panel in panels:
         panel.axvline(results.realizations, color=BLACK, linestyle=":", linewidth=1.2, label="rule satisfied")
-    return f"The campaign {verdict}."
+    return f"Verdict: {verdict}."

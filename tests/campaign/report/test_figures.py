@@ -28,14 +28,16 @@ def results(runouts, statuses=None):
     data = xr.Dataset(
         {
             "final_runout": ("realization", np.array(runouts, dtype=float)),
+            "final_runout_mass": ("realization", np.array(runouts, dtype=float)),
             "runout": (("realization", "time"), np.outer(runouts, np.minimum(time / 5, 1))),
             "settle_time": ("realization", np.full(n, 6.0)),
             "status": ("realization", status),
             "deterministic_runout": ("time", 9.0 * np.minimum(time / 5, 1)),
             "deterministic_final_runout": 9.0,
             "deterministic_status": 0,
-            "mean": ("checkpoint", per_look),
-            "variance": ("checkpoint", per_look),
+            "deterministic_final_runout_mass": 9.0,
+            "runout_mean": ("checkpoint", per_look),
+            "runout_variance": ("checkpoint", per_look),
         },
         {"realization": np.arange(n), "time": time, "checkpoint": counted},
         {"verdict": f"not converged after {n} realizations"},
@@ -84,6 +86,14 @@ def test_exceedance_is_counted():
     assert np.isnan(share[4])
 
 
+def test_exceedance_counts_slopes_that_stay():
+    """Two of four slide, 1 and 2 m far: half run farther than 0.9 m, a quarter than 1 m."""
+    given = results([1.0, 0.5, 2.0, 0.2], [Status.slid, Status.no_slide] * 2)
+    (axes,) = distribution.exceedance(given).figure.axes
+    _, share = axes.lines[0].get_data()
+    np.testing.assert_allclose(share[:2], [0.5, 0.25])
+
+
 def test_failed_realizations_are_in_no_curve():
     statuses = [Status.slid] * 30 + [Status.crashed] * 10
     illustration = distribution.curves(results(np.r_[NORMAL[:30], np.full(10, np.nan)], statuses))
@@ -122,7 +132,7 @@ def test_a_colour_range_ignores_a_few_extremes():
 def test_ranks_are_by_runout_among_the_usable():
     given = results([3.0, 9.0, 1.0, 2.0], [Status.slid, Status.diverged, Status.slid, Status.not_settled])
     assert [given.ranked(share) for share in (0.0, 0.5, 1.0)] == [2, 3, 0]
-    with pytest.raises(ValueError, match="No run-out counts"):
+    with pytest.raises(ValueError, match="Nothing slid"):
         results([0.0], [Status.no_slide]).ranked(0.5)
 
 

@@ -21,6 +21,7 @@ from campaign.report.summary import summary
 from campaign.results.results import Results, read_results
 from campaign.seeds import BASELINE
 from campaign.simulation.ground import prepare
+from campaign.statistics.intervals import mean_interval
 
 PNG = b"\x89PNG\r\n\x1a\n"
 FIGURES = 8
@@ -82,16 +83,27 @@ def made_up_page(directory, ground, runouts, statuses=None, baseline=Status.slid
 
 def test_the_numbers_are_the_datasets(page, campaign):
     with xr.open_dataset(campaign / "results.nc") as data:
-        mean, (lower, upper) = float(data["mean"][-1]), data["mean_ci"][-1].values
-        std = np.sqrt(float(data["variance"][-1]))
-        deterministic = float(data["deterministic_final_runout"])
-        shortest, longest = float(data["final_runout"].min()), float(data["final_runout"].max())
-        exceeding = float((data["final_runout"] > data["deterministic_final_runout"]).mean())
-    assert f"The slide runs {mean:.2f} ± {(upper - lower) / 2:.2f} m on average" in page.text
-    assert f"{lower:.2f} to {upper:.2f} m" in page.text
+        mean, (lower, upper) = float(data.runout_mean[-1]), data.runout_mean_ci[-1].values
+        std = np.sqrt(float(data.runout_variance[-1]))
+        deterministic = float(data.deterministic_final_runout_mass)
+        slides = data.final_runout_mass[data.slid]
+        shortest, longest = float(slides.min()), float(slides.max())
+        exceeding = float((data.final_runout_mass[data.usable] > deterministic).mean())
+    assert f"The slide runs {mean:.2f} m on average, {lower:.2f} to {upper:.2f} m with 95 % confidence" in page.text
+    assert f"sampling ±{(upper - lower) / 2:.2f} m; what the mesh adds is not estimated" in page.text
     assert f"a standard deviation of {std:.2f} m" in page.text
     assert f"the shortest ran {shortest:.2f} m, the longest {longest:.2f} m" in page.text
-    assert f"it would run {deterministic:.2f} m, which {100 * exceeding:.0f} % of the slides exceed" in page.text
+    assert f"would run {deterministic:.2f} m; {100 * exceeding:.0f} % of all realizations run farther" in page.text
+
+
+def test_the_probability_of_a_slide_comes_first(page, campaign):
+    """12 of 12 at 95 % confidence: at least 0.025^(1/12)."""
+    least = f"{100 * 0.025 ** (1 / 12):.0f} %"
+    assert answer(read_results(campaign)).startswith(
+        f"12 of 12 realizations slid: the probability of a slide is at least {least} (95 % confidence). The slide runs"
+    )
+    first = error_budget(read_results(campaign))[0]
+    assert (first.quantity, first.value, first.n) == ("probability of a slide", "100 %", "12")
 
 
 def test_the_last_words_on_the_terminal_are_those_of_the_page(page, campaign):
@@ -145,25 +157,63 @@ def test_few_realizations_give_a_page(tmp_path, ground, n):
     assert len(page.images) == FIGURES - (2 if n == 1 else 0) - 1
 
 
-def test_no_slide_at_all(tmp_path, ground):
+def test_no_slide_in_few_realizations_is_not_yet_an_answer(tmp_path, ground):
     page = made_up_page(tmp_path, ground, [0.0] * 12, [Status.no_slide] * 12)
-    assert "No answer: none of the 12 realizations" in page.text
+    assert "0 of 12 realizations slid, so the probability of a slide is at most 26 % (95 % confidence)." in page.text
+    assert "It takes more of them to call the slope stable" in page.text
     assert len(page.images) == 2  # where the ground moves, the deterministic slide
+
+
+def test_a_slope_that_does_not_slide_is_an_answer(tmp_path, ground):
+    """0 of 40 is at most 8.8 %; a single row of the budget needs a slide, and none is empty."""
+    page = made_up_page(tmp_path, ground, [0.0] * 60, [Status.no_slide] * 60, Status.no_slide, ["campaign.block=20"])
+    assert "It does not slide: 0 of 40 realizations slid, so the probability of a slide is at most 8.8 %" in page.text
+    assert "With mean strengths everywhere it does not slide either." in page.text
+    assert "sampling converged at 40 realizations: none slid" in page.text
+    assert not re.search(r"\bnan\b", page.text + summary(read_results(tmp_path)))
+    assert "No answer" not in page.text
+    budget = {row.quantity: row.value for row in error_budget(read_results(tmp_path))}
+    assert budget["probability of a slide"] == "0 %"
+    assert budget["created or lost, of the energy released"] == "no slide"
+    assert "mean run-out of a slide, sampling alone" not in budget
+
+
+def test_a_slope_that_slides_sometimes_gives_both_exceedances(tmp_path, ground):
+    """Of 40 realizations 18 slide and 14 run farther than the deterministic 9 m: 35 %, 78 % of the slides."""
+    runouts = [*np.linspace(8.0, 8.9, 4), *np.linspace(9.1, 12.0, 14), *[0.4] * 22]
+    page = made_up_page(tmp_path, ground, runouts, [Status.slid] * 18 + [Status.no_slide] * 22)
+    assert "18 of 40 realizations slid: the probability of a slide is 45 %, 29 to 62 % (95 % confidence)" in page.text
+    assert "m on average where it slides" in page.text
+    assert "it would run 9.00 m; 35 % of all realizations run farther (22 to 50 %), 78 % of those that sli" in page.text
+    words = summary(read_results(tmp_path))
+    assert words.startswith("18 of 40 realizations slid")
+
+
+def test_a_wall_makes_lower_bounds_and_is_told(tmp_path, ground):
+    """8 of 20 slides go beyond 9 m, and 3 that a wall has stopped may have: Wilson's bounds of 8/20 and 11/20."""
+    runouts = [*[8.0] * 9, *[10.0] * 8, *[7.5] * 3]
+    page = made_up_page(tmp_path, ground, runouts, [Status.slid] * 17 + [Status.reached_wall] * 3)
+    assert "This is a lower bound: 3 of 20 slides reached a wall of the model" in page.text
+    assert "40 % of all realizations run farther (22 to 74 %)" in page.text
+    assert "3 slides reached a wall" in page.text
 
 
 def test_nothing_but_failures(tmp_path, ground):
     page = made_up_page(tmp_path, ground, [np.nan] * 12, [Status.crashed] * 12, baseline=Status.diverged)
     assert "failed: crashed" in page.text
+    assert "No answer: all 10 realizations failed." in page.text
+    assert error_budget(read_results(tmp_path))[0].value == "no realization with a result"
     assert "a reason <b>&" in page.text
     assert "All realizations failed" in page.text
 
 
 def test_some_failures_are_bounded(tmp_path, ground):
-    """Of 12 one failed and 10 of the other 11 exceed 9.0 m: 10/12 to 11/12."""
+    """Of 12 one failed and 10 of the other 11 exceed 9.0 m: 10/12 to 11/12. All 11 slid: 11/12 to 1."""
     statuses = [Status.crashed, *[Status.not_settled] * 2, *[Status.slid] * 9]
     page = made_up_page(tmp_path, ground, [np.nan, 8.0, *(9.1 + 0.1 * np.arange(10))], statuses)
     assert "1 failed" in page.text
-    assert "83 to 92 %" in page.text
+    assert "83 to 91.7 %" in page.text
+    assert "91.7 to 100 %" in page.text
     assert "2 of the 11 run-outs are lower bounds" in page.text
 
 
@@ -171,23 +221,51 @@ def test_convergence_is_told(tmp_path, ground):
     runouts = list(np.random.default_rng(1).normal(9.0, 0.5, 24))
     loose = ["campaign.mean_tolerance=0.5", "campaign.variance_tolerance=0.9"]
     page = made_up_page(tmp_path, ground, runouts, overrides=loose)
-    assert "The campaign converged at" in page.text
+    assert "Verdict: sampling converged at" in page.text
     assert "did not come out exactly as recorded" in page.text
 
 
 def test_a_discretisation_error_is_used_where_it_is_known(campaign):
     """Student's t of 95 % and 2 degrees of freedom is 4.303: 1 +- 4.303 0.5 / sqrt(3)."""
     results = read_results(campaign)
-    assert "errors of the mesh and of the model are not among them" in answer(results)
     pairs = {
         "paired_difference": ("pair", [0.5, 1.0, np.nan, 1.5]),
         "deterministic_paired_difference": ((), 0.7),
     }
     known = Results(results.data.assign(pairs), results.scene)
-    assert "the mesh adds about 1.00 m to that of the mean (half the cell changes it by +1.00 ± 1.24 m)" in (
+    mean, change = mean_interval(results.slide_runouts, 0.95), 4.303 * 0.5 / np.sqrt(3)
+    half_width = np.hypot(mean.half_width, change) + 1.0
+    centre = mean.estimate + 1.0
+    assert f"{centre:.2f} m on average, {centre - half_width:.2f} to {centre + half_width:.2f} m with 95 %" in (
         answer(known)
     )
-    assert error_budget(known)[-2][2:] == ("1.00 m (+1.00 m)", "-0.24 to +2.24 m", "3")
+    assert "mesh +1.00 ± 1.24 m, which is what half the cell changes" in answer(known)
+    rows = {row.source: row for row in error_budget(known)}
+    assert rows["Discretisation"][2:] == ("+1.00 m", "-0.24 to +2.24 m", "3")
+    assert rows["Total"].quantity == "mean run-out of a slide, sampling and mesh"
+
+
+def test_the_release_protocol_is_a_line_of_the_budget(campaign):
+    results = read_results(campaign)
+    other = {
+        "other_release_final_runout": ((), 20.0),
+        "other_release_final_runout_mass": ((), results.deterministic * 1.06),
+        "other_release_status": ((), int(Status.slid)),
+    }
+    known = Results(results.data.assign(other), results.scene)
+    row = next(row for row in error_budget(known) if row.source == "Release")
+    assert row.value == f"{0.06 * results.deterministic:+.2f} m (+6.0 %)"
+    assert (
+        row.interval
+        == f'{results.deterministic:.2f} m with "release", {1.06 * results.deterministic:.2f} m with "ramp"'
+    )
+
+
+def test_results_of_an_older_format_are_refused_with_the_way_to_new_ones(campaign, tmp_path):
+    with xr.open_dataset(campaign / "results.nc") as data:
+        data.assign_attrs(format=1).to_netcdf(tmp_path / "results.nc")
+    with pytest.raises(RefusalError, match=r"is of format 1, .* campaign run .* makes it again from the records"):
+        read_results(tmp_path)
 
 
 def test_without_a_simulation_the_other_figures_are_drawn(campaign, monkeypatch):

@@ -5,29 +5,31 @@ import numpy as np
 import pytest
 import xarray as xr
 from records import GROUND, SIZES, make_record
+from tallies import prefixes_of, summary_of
 
-from campaign.record import Status
+from campaign.record import FAILED, Status, summarize
 from campaign.results import dataset
 from campaign.seeds import BASELINE
 from campaign.simulation.quantities import QUANTITIES
-from campaign.statistics.convergence import StoppingRule, convergence_history
+from campaign.statistics.convergence import convergence_history
 from campaign.statistics.discretisation import Discretisation
+from campaign.statistics.release import ReleaseComparison
+from campaign.statistics.stopping import StoppingRule
 from campaign.storage.columns import columns_of
 
-STATUSES = [Status.slid, Status.no_slide, Status.crashed, *[Status.slid] * 67]
+STATUSES = [Status.slid, Status.no_slide, Status.crashed, *[Status.slid] * 65, Status.not_settled, Status.reached_wall]
 RECORDS = [make_record(k, status, "no mass" if status is Status.crashed else "") for k, status in enumerate(STATUSES)]
 
 
 @pytest.fixture(scope="module")
 def path(tmp_path_factory):
-    runouts = np.array([record.values["final_runout"] for record in RECORDS])
-    usable = np.array([status is Status.slid for status in STATUSES])
-    estimates = convergence_history(runouts, usable, StoppingRule(0.01, 0.1, 0.95, 20, 25), 10.0)
+    prefixes = prefixes_of([summarize(record) for record in RECORDS])
+    estimates = convergence_history(prefixes, StoppingRule(0.01, 0.1, 0.95, 20, 25, 0.1), 10.0)
     pairs = Discretisation(1.0, np.array([-0.5, np.nan, -1.5]), 0.25, 0.95)
+    release = ReleaseComparison("ramp", summary_of(BASELINE, 11.0))
     about = {"seed": "7", "scene": "title = 'é'\n"}
-    built = dataset.build(
-        GROUND, [columns_of(RECORDS[:30]), columns_of(RECORDS[30:])], make_record(BASELINE), estimates, about, pairs
-    )
+    blocks = [columns_of(RECORDS[:30]), columns_of(RECORDS[30:])]
+    built = dataset.build(GROUND, blocks, make_record(BASELINE), estimates, about, pairs, release)
     target = tmp_path_factory.mktemp("results") / "results.nc"
     dataset.write(built, target)
     return target
@@ -51,7 +53,7 @@ def test_dimensions_are_those_of_the_table(opened):
             assert opened[name].dims == ("realization", *quantity.dims)
     assert opened.influence_probability.dims == ("particle",)
     assert opened.deterministic_runout.dims == ("time",)
-    assert opened.mean_ci.dims == ("checkpoint", "bound")
+    assert opened.runout_mean_ci.dims == ("checkpoint", "bound")
 
 
 def test_every_float_has_a_unit_and_every_variable_a_name(opened):
@@ -65,7 +67,8 @@ def test_every_float_has_a_unit_and_every_variable_a_name(opened):
 
 def test_values_are_exact(opened):
     np.testing.assert_array_equal(opened.runout, np.stack([record.values["runout"] for record in RECORDS]))
-    np.testing.assert_array_equal(opened.deterministic_runout, make_record(BASELINE).values["runout"])
+    for name in ("runout", "final_runout", "final_runout_mass"):
+        np.testing.assert_array_equal(opened[f"deterministic_{name}"], make_record(BASELINE).values[name])
 
 
 def test_influence_is_a_share_of_the_realizations_that_did_not_fail(opened):
@@ -80,9 +83,33 @@ def test_status_flags_follow_cf(opened):
     assert opened.reason.values[2] == "no mass"
 
 
+def test_masks_choose_what_statistics_count(opened):
+    """Whoever asks `status == 0` loses the slides that are lower bounds."""
+    assert opened.usable.dtype == opened.slid.dtype == bool
+    usable = opened.where(opened.usable, drop=True)
+    assert usable.sizes["realization"] == opened.n[-1] == 69
+    assert [k for k, status in enumerate(STATUSES) if status in FAILED] == np.flatnonzero(~opened.usable).tolist()
+    slides = opened.sel(realization=opened.slid)
+    assert slides.sizes["realization"] == opened.n_slides[-1] == 68
+    assert float(slides.final_runout_mass.mean()) == pytest.approx(float(opened.runout_mean[-1]))
+    beyond = (slides.final_runout_mass > 10.0).sum()
+    assert float(beyond / 69) == opened.exceedance[-1]
+    assert float(beyond / 68) == opened.exceedance_given_sliding[-1]
+
+
+def test_no_name_hides_a_method(opened):
+    assert not [name for name in opened.variables if hasattr(xr.Dataset, str(name))]
+
+
+def test_the_other_release_and_the_total_are_there(opened):
+    assert float(opened.other_release_final_runout_mass) == 11.0
+    assert opened.runout_mean_total_ci.dims == ("bound",)
+    assert float(opened.runout_mean_total) == pytest.approx(float(opened.runout_mean[-1]) - 1.0)
+
+
 def test_checkpoints_are_labelled_by_realizations(opened):
     np.testing.assert_array_equal(opened.checkpoint, [20, 45, 70])
-    assert opened.n.sel(checkpoint=45) == 43
+    assert (opened.n.sel(checkpoint=45), opened.n_slides.sel(checkpoint=45)) == (44, 43)
 
 
 def test_the_discretisation_error_comes_with_its_pairs(opened):

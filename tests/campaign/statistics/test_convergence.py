@@ -5,11 +5,15 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
+from tallies import summary_of
 
-from campaign.statistics.convergence import StoppingRule, checkpoints, convergence_history
+from campaign.record import Status
+from campaign.statistics.convergence import convergence_history
+from campaign.statistics.outcomes import Account
+from campaign.statistics.stopping import StoppingRule
 
-RULE = StoppingRule(mean_tolerance=0.01, variance_tolerance=0.10, confidence=0.95, minimum=100, block=50)
-LOOSE = StoppingRule(mean_tolerance=0.02, variance_tolerance=0.40, confidence=0.95, minimum=100, block=50)
+RULE = StoppingRule(0.01, 0.10, 0.95, 100, 50, 0.1)
+LOOSE = StoppingRule(0.02, 0.40, 0.95, 100, 50, 0.1)
 
 # Decided by the variance of a normal run-out: 1 + 2 z^2 / asinh(0.1)^2 = 773, seen at 800 and confirmed at 850.
 NORMAL_STOP = 850
@@ -20,7 +24,17 @@ def normal_runouts(seed, n):
 
 
 def apply(values, rule=RULE, threshold=10.78):
-    return convergence_history(values, np.isfinite(values), rule, threshold)
+    """Judge run-outs; a realization without one did not slide."""
+    return judge(values, [Status.slid if np.isfinite(value) else Status.no_slide for value in values], rule, threshold)
+
+
+def judge(values, statuses, rule=RULE, threshold=10.78):
+    """Judge run-outs up to each checkpoint, as a campaign would."""
+    account, prefixes = Account(len(values), "mass"), []
+    for k, (value, status) in enumerate(zip(values, statuses, strict=True)):
+        account.add(summary_of(k, value, status))
+        prefixes.append(account.outcomes())
+    return convergence_history(prefixes, rule, threshold)
 
 
 def assert_same(one, other):
@@ -29,10 +43,8 @@ def assert_same(one, other):
 
 
 def test_checkpoints_are_blocks_and_the_end():
-    assert checkpoints(4, RULE) == [4]
-    assert checkpoints(100, RULE) == [100]
-    assert checkpoints(170, RULE) == [100, 150, 170]
-    assert checkpoints(0, RULE) == [0]
+    for count, rows in [(4, [4]), (100, [100]), (170, [100, 150, 170])]:
+        assert apply(normal_runouts(1, count)).realizations.tolist() == rows
 
 
 def test_rows_are_the_estimates_of_the_prefix():
@@ -53,20 +65,34 @@ def test_rows_are_the_estimates_of_the_prefix():
         assert np.all((bounds[:, 0] < estimate) & (estimate < bounds[:, 1]))
 
 
-def test_realizations_that_are_not_usable_count_as_realizations_but_not_as_values():
+def test_what_does_not_slide_counts_as_a_realization_but_not_as_a_run_out():
     values = normal_runouts(2, 300)
     values[::3] = np.nan
     result = apply(values)
-    np.testing.assert_array_equal(result.n, [66, 100, 133, 166, 200])
+    np.testing.assert_array_equal(result.n_slides, [66, 100, 133, 166, 200])
+    np.testing.assert_array_equal(result.n, result.realizations)
+    assert result.slide_probability[-1] == pytest.approx(2 / 3)
     assert result.mean[-1] == pytest.approx(np.nanmean(values))
-    assert result.exceedance[-1] == np.mean(values[np.isfinite(values)] > 10.78)
+    slid = values[np.isfinite(values)]
+    assert result.exceedance_given_sliding[-1] == np.mean(slid > 10.78)
+    assert result.exceedance[-1] == np.count_nonzero(slid > 10.78) / 300
 
 
-def test_a_value_that_is_not_usable_is_never_read():
-    values = normal_runouts(2, 150)
-    usable = np.arange(150) % 3 > 0
-    poisoned = np.where(usable, values, 1e9)
-    assert_same(convergence_history(poisoned, usable, RULE, 10.78), convergence_history(values, usable, RULE, 10.78))
+def test_a_failure_is_no_result():
+    values, statuses = normal_runouts(2, 150), [Status.slid] * 150
+    statuses[::3] = [Status.crashed] * 50
+    result = judge(values, statuses)
+    np.testing.assert_array_equal(result.n, [66, 100])
+    np.testing.assert_array_equal(result.n_slides, result.n)
+    assert (result.slide_probability == 1).all()
+
+
+@pytest.mark.parametrize("status", [Status.crashed, Status.no_slide])
+def test_a_value_without_a_slide_is_never_read(status):
+    values, statuses = normal_runouts(2, 150), [Status.slid] * 150
+    statuses[::3] = [status] * 50
+    poisoned = np.where(np.arange(150) % 3 > 0, values, 1e9)
+    assert_same(judge(poisoned, statuses), judge(values, statuses))
 
 
 def test_normal_run_outs_stop_where_theory_says():
@@ -116,29 +142,20 @@ def test_four_realizations_have_one_row_and_are_not_enough():
     assert result.realizations.tolist() == [4]
     assert result.converged_at is None
     assert np.isnan(result.predicted_n).all()
-    assert result.verdict == "not enough yet: 4 usable run-outs in 4 realizations, at least 100 were asked"
+    assert result.verdict == "not enough yet: 4 results in 4 realizations, at least 100 were asked"
 
 
-def test_no_realization_is_not_enough():
-    result = apply(np.array([]))
-    assert result.n.tolist() == [0]
-    assert result.mean_ci.shape == (1, 2)
-    assert result.verdict.startswith("not enough yet")
-
-
-def test_a_campaign_in_which_nearly_nothing_slides_does_not_converge():
-    """Ten nearly equal run-outs in 200 realizations meet any tolerance, but ten are not the minimum."""
-    values = np.full(200, np.nan)
-    values[::20] = 10 + 1e-6 * np.arange(10)
-    result = apply(values, StoppingRule(0.5, 5.0, 0.95, 100, 50))
-    assert result.converged_at is None
-    assert result.verdict == "not enough yet: 10 usable run-outs in 200 realizations, at least 100 were asked"
+def test_nothing_but_failures_is_not_enough():
+    result = judge(np.full(150, np.nan), [Status.crashed] * 150)
+    assert np.isnan(result.slide_probability).all()
+    assert np.isnan(result.predicted_n).all()
+    assert result.verdict == "not enough yet: 0 results in 150 realizations, at least 100 were asked"
 
 
 def test_equal_run_outs_never_converge_because_their_variance_has_no_interval():
     result = apply(np.full(300, 10.8))
     assert result.converged_at is None
-    assert result.verdict.endswith("the 300 usable run-outs give no interval for the variance")
+    assert result.verdict.endswith("the 300 slides give no interval for the variance")
 
 
 def test_verdict_names_what_is_missing():
@@ -150,8 +167,8 @@ def test_verdict_names_what_is_missing():
 @pytest.mark.parametrize(
     ("rule", "missing"),
     [
-        (StoppingRule(0.002, 0.40, 0.95, 100, 50), "the mean is known to"),
-        (StoppingRule(0.02, 0.05, 0.95, 100, 50), "the variance is known to"),
+        (StoppingRule(0.002, 0.40, 0.95, 100, 50, 0.1), "the mean is known to"),
+        (StoppingRule(0.02, 0.05, 0.95, 100, 50, 0.1), "the variance is known to"),
     ],
     ids=["mean", "variance"],
 )
@@ -165,7 +182,8 @@ def test_either_tolerance_alone_holds_a_campaign_back(rule, missing):
 
 def test_verdict_of_a_converged_campaign():
     verdict = apply(normal_runouts(5, 400), LOOSE).verdict
-    assert verdict.startswith("converged at 150 realizations: the mean is known to 0.")
+    chance = "the probability of a slide is at least 97.6 %"
+    assert verdict.startswith(f"sampling converged at 150 realizations: {chance}, the mean run-out is known to 0.")
     assert verdict.endswith("at 95 % confidence")
 
 
@@ -184,8 +202,8 @@ def test_forecast_for_normal_run_outs():
     assert np.median(forecasts) == pytest.approx(NORMAL_STOP, abs=100)
 
 
-def test_forecast_decided_by_the_mean_counts_the_unusable_realizations():
-    """A coefficient of variation of 0.5 asks for (z 0.5 / 0.01)^2 = 9604 values: 19208 realizations if half fail."""
+def test_forecast_decided_by_the_mean_counts_the_realizations_that_do_not_slide():
+    """A coefficient of variation of 0.5 asks for (z 0.5 / 0.01)^2 = 9604 slides: 19208 realizations if half slide."""
     half = np.random.default_rng(9).normal(1.0, 0.5, 250)
     half = 1 + 0.5 * (half - half.mean()) / half.std(ddof=1)
     values = np.full(500, np.nan)
@@ -201,12 +219,12 @@ def test_forecast_about_a_zero_mean_is_infinite():
 @pytest.mark.parametrize(
     ("draw", "mean", "variance", "rule", "least"),
     [
-        (lambda rng: rng.normal(10.8, 0.51, 600), 10.8, 0.51**2, StoppingRule(0.01, 0.25, 0.95, 100, 50), 0.90),
+        (lambda rng: rng.normal(10.8, 0.51, 600), 10.8, 0.51**2, StoppingRule(0.01, 0.25, 0.95, 100, 50, 0.1), 0.90),
         (
             lambda rng: rng.lognormal(-0.1115717757, 0.4723807271, 1500),
             1.0,
             0.25,
-            StoppingRule(0.1, 0.4, 0.95, 100, 50),
+            StoppingRule(0.1, 0.4, 0.95, 100, 50, 0.1),
             0.86,
         ),
     ],

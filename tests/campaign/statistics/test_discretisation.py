@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 from small_campaign import small_scene
+from tallies import summary_of
 
-from campaign.record import RealizationSummary, Status
+from campaign.record import Status
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
 from campaign.simulation.ground import prepare
@@ -16,7 +17,7 @@ from campaign.statistics.tally import tally_of
 def account(scene, runouts, **statuses):
     tally = tally_of(scene)
     for k, runout in enumerate(runouts, start=BASELINE):
-        tally.add(RealizationSummary(k, statuses.get(f"_{k}", Status.slid), runout, 1.0))
+        tally.add(summary_of(k, runout, statuses.get(f"_{k}", Status.slid)))
     return tally
 
 
@@ -50,10 +51,12 @@ def test_a_realization_is_the_same_ground_on_both_meshes(scene):
 
 
 def test_only_pairs_of_which_both_count_enter(scene):
-    coarse = account(scene, [9.0, 10.0, 11.0, 12.0, 13.0], _1=Status.crashed)
-    fine = account(with_half_cell(scene, 4), [9.5, 11.0, 12.0, 14.0, 0.0], _3=Status.no_slide)
+    coarse = account(scene, [9.0, 10.0, 11.0, 12.0, 13.0, 14.0], _1=Status.crashed)
+    fine = account(
+        with_half_cell(scene, 5), [9.5, 11.0, 12.0, 14.0, 0.0, 14.5], _3=Status.no_slide, _4=Status.reached_wall
+    )
     found = estimate(scene, coarse, fine)
-    np.testing.assert_array_equal(found.differences, [1.0, np.nan, 2.0, np.nan])
+    np.testing.assert_array_equal(found.differences, [1.0, np.nan, 2.0, np.nan, np.nan])
     assert (found.error, found.interval.n, found.deterministic) == (1.5, 2, 0.5)
 
 

@@ -44,12 +44,20 @@ def test_equal_run_outs_are_suspicious():
 
 def test_a_front_that_has_come_apart_is_told():
     runouts = np.array([7.0, 8.0, 9.0, 10.0])
-    assert detached_fronts(np.zeros(4), runouts, 0.25) == []
-    (doubt,) = detached_fronts(np.array([0.0, 0.1, 0.2, 0.0]), runouts, 0.25)
+    apart = np.array([0.0, 0.1, 0.2, 0.0])
+    assert detached_fronts(np.zeros(4), runouts, 0.25, "tip") == []
+    (doubt,) = detached_fronts(apart, runouts, 0.25, "tip")
     assert doubt.startswith("In 2 of 4 slides the front-most ground has come apart")
-    assert doubt.endswith("Use final_runout_mass (8.50 m on average).")
+    assert doubt.endswith('Use slide.front = "mass" (8.50 m on average).')
+
+
+def test_the_mass_front_does_not_care_about_less_debris_than_lies_ahead_of_it():
+    assert detached_fronts(np.array([0.0, 0.1, 0.2, 0.0]), np.full(4, 8.0), 0.25, "mass") == []
 
 
 def test_debris_larger_than_the_mass_front_is_told():
-    (doubt,) = detached_fronts(np.array([0.0, 0.1, 0.25, 3.0]), np.full(4, 8.0), 0.25)
-    assert doubt.endswith("and raise slide.front_area: in 2 there is more debris than that.")
+    apart = np.array([0.0, 0.1, 0.25, 3.0])
+    (doubt,) = detached_fronts(apart, np.full(4, 8.0), 0.25, "tip")
+    assert doubt.endswith("and a larger slide.front_area: in 2 there is more debris than that.")
+    (doubt,) = detached_fronts(apart, np.full(4, 8.0), 0.25, "mass")
+    assert doubt.startswith("In 2 of 4 slides more ground than slide.front_area has come apart")

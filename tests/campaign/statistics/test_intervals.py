@@ -10,10 +10,8 @@ from scipy import stats
 
 from campaign.statistics.intervals import (
     Interval,
-    failure_bounds,
     kurtosis,
     mean_interval,
-    proportion_interval,
     quantile_interval,
     variance_interval,
 )
@@ -64,37 +62,10 @@ def test_kurtosis_of_a_skewed_sample_by_hand():
     assert kurtosis(np.array([0.0, 0.0, 0.0, 0.0, 10.0])) == pytest.approx(7.8125)
 
 
-@pytest.mark.parametrize(
-    ("successes", "n", "lower", "upper"),
-    [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)],
-)
-def test_proportion_interval_reproduces_newcombe(successes, n, lower, upper):
-    """Wilson intervals without continuity correction, Newcombe (1998), Statistics in Medicine 17, table I, method 3."""
-    interval = proportion_interval(successes, n, 0.95)
-    assert (interval.lower, interval.upper) == pytest.approx((lower, upper), abs=5e-5)
-    assert (interval.estimate, interval.n) == (successes / n, n)
-
-
-def test_proportion_interval_covers_on_average_over_all_proportions():
-    """Exact coverage, summed over the binomial distribution at n = 100 and averaged over p in [0.02, 0.98]."""
-    intervals = [proportion_interval(k, 100, 0.95) for k in range(101)]
-    coverage = [
-        sum(stats.binom.pmf(k, 100, p) for k, interval in enumerate(intervals) if contains(interval, p))
-        for p in np.linspace(0.02, 0.98, 25)
-    ]
-    assert np.mean(coverage) == pytest.approx(0.95, abs=0.01)
-
-
 def test_median_of_ten_lies_between_the_second_and_the_ninth():
     """The classical ranks at 95 %: P(2 <= B(10, 1/2) <= 8) = 0.979, and one rank less on either side gives 0.891."""
     interval = quantile_interval(np.arange(1.0, 11.0), 0.5, 0.95)
     assert interval == Interval(estimate=5.5, lower=2.0, upper=9.0, n=10)
-
-
-def test_failure_bounds_by_hand():
-    assert failure_bounds(exceeding=40, valid=80, failed=20) == (0.4, 0.6)
-    assert failure_bounds(exceeding=40, valid=80, failed=0) == (0.5, 0.5)
-    assert all(map(math.isnan, failure_bounds(0, 0, 0)))
 
 
 @pytest.mark.parametrize(
@@ -106,7 +77,6 @@ def test_failure_bounds_by_hand():
         variance_interval(np.array([]), 0.95),
         variance_interval(np.full(100, 10.8), 0.95),
         variance_interval(np.arange(5.0), 1 - 1e-9),
-        proportion_interval(0, 0, 0.95),
         quantile_interval(np.arange(5.0), 0.5, 0.95),
         quantile_interval(np.array([]), 0.5, 0.95),
     ],

@@ -4,11 +4,12 @@ import time
 
 import numpy as np
 import pytest
-from tallies import filled, summary
+from tallies import filled, prefixes_of, summary, summary_of
 
-from campaign.record import FAILED, USABLE, RealizationSummary, Status
+from campaign.record import FAILED, RealizationSummary, Status
 from campaign.seeds import BASELINE
-from campaign.statistics.convergence import StoppingRule, convergence_history
+from campaign.statistics.convergence import convergence_history
+from campaign.statistics.stopping import StoppingRule
 from campaign.statistics.tally import Tally
 
 
@@ -47,15 +48,14 @@ def test_too_many_failures_are_noticed_at_the_first_checkpoint():
 
 
 def from_scratch(tally):
-    """The history as the stopping rule defines it, from all run-outs at once."""
-    values = np.array(
-        [
-            each.final_runout if each.status in USABLE else np.nan
-            for each in (tally.summaries[k] for k in range(tally.prefix))
-        ],
-        dtype=float,
-    )
-    return convergence_history(values, ~np.isnan(values), tally.rule, tally.threshold)
+    """The history as the stopping rule defines it, from all realizations at once."""
+    summaries = [tally.summaries[k] for k in range(tally.prefix)]
+    return convergence_history(prefixes_of(summaries), tally.rule, tally.threshold)
+
+
+def slides_with(share):
+    """Probability of each status, a share of them slides and 8 % failures."""
+    return [0.9 * share, 0.92 - share, 0.06 * share, 0.02, 0.02, 0.02, 0.02, 0.04 * share]
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -63,14 +63,14 @@ def test_the_running_account_is_that_of_all_run_outs_at_once(seed):
     """Bit for bit, at every step, with failures, slopes that stay, gaps and any order of arrival."""
     rng = np.random.default_rng(seed)
     count = int(rng.integers(1, 160))
-    rule = StoppingRule(
-        rng.uniform(0.001, 0.2), rng.uniform(0.1, 2.0), 0.95, int(rng.integers(10, 60)), int(rng.integers(1, 9))
-    )
-    statuses = rng.choice(list(Status), count + 1, p=[0.8, 0.05, 0.07, 0.02, 0.02, 0.02, 0.02])
+    minimum, block = int(rng.integers(10, 60)), int(rng.integers(1, 9))
+    rule = StoppingRule(rng.uniform(0.001, 0.2), rng.uniform(0.1, 2.0), 0.95, minimum, block, rng.uniform(0.05, 0.4))
+    share = rng.choice([0.0, 0.05, 0.5, 0.85])
+    statuses = rng.choice(list(Status), count + 1, p=slides_with(share))
     runouts = np.where(rng.random(count + 1) < 0.02, np.nan, rng.lognormal(2, 0.3, count + 1))
-    tally = Tally(count, rule, rng.uniform(0.02, 0.3))
+    tally = Tally(count, rule, rng.uniform(0.02, 0.3), "mass")
     for k in rng.permutation(np.arange(-1, count)).tolist():
-        tally.add(RealizationSummary(k, Status(statuses[k]), float(runouts[k]), float(rng.exponential())))
+        tally.add(summary_of(k, float(runouts[k]), Status(statuses[k]), float(rng.exponential())))
         if tally.prefix:
             for name, value in vars(from_scratch(tally)).items():
                 np.testing.assert_array_equal(getattr(tally.history(), name), value, err_msg=name)
@@ -87,8 +87,8 @@ def test_a_realization_counts_once():
 
 
 def seconds_to_add(count):
-    tally = Tally(count, StoppingRule(1e-6, 1e-6, 0.95, 100, 25), 0.1)
-    summaries = [RealizationSummary(k, Status.slid, 10.0 + k % 7, 1.0) for k in range(-1, count)]
+    tally = Tally(count, StoppingRule(1e-6, 1e-6, 0.95, 100, 25, 0.1), 0.1, "mass")
+    summaries = [summary_of(k, 10.0 + k % 7) for k in range(-1, count)]
     begin = time.process_time()
     for each in summaries:
         tally.add(each)
@@ -99,3 +99,18 @@ def seconds_to_add(count):
 def test_the_account_takes_ten_times_as_long_for_ten_times_as_many():
     short = min(seconds_to_add(1000) for _ in range(3))
     assert seconds_to_add(10_000) < 15 * short
+
+
+@pytest.mark.parametrize(("front", "mean"), [("mass", 9.0), ("tip", 12.0)])
+def test_the_account_is_of_the_front_that_was_chosen(front, mean):
+    tally = Tally(30, StoppingRule(0.1, 0.5, 0.95, 20, 10, 0.1), 0.1, front)
+    for k in range(BASELINE, 30):
+        tally.add(RealizationSummary(k, Status.slid, final_runout=12.0, final_runout_mass=9.0, wall_time=1.0))
+    assert (tally.threshold, tally.latest().mean.estimate) == (mean, mean)
+
+
+def test_a_campaign_of_the_deterministic_run_alone_ends_with_it():
+    tally = filled([], maximum=0)
+    assert tally.size is None
+    tally.add(summary(BASELINE))
+    assert tally.size == 0

@@ -130,7 +130,7 @@ def test_records_of_different_shapes_stay_loose(tmp_path):
 
 @pytest.fixture
 def written_by_the_next_version(tmp_path, monkeypatch):
-    """A record, a pack, a manifest and results of format 2."""
+    """A record, a pack, a manifest and results of the next format."""
     later = formats.FORMAT + 1
     with monkeypatch.context() as patch:
         for module in (formats, seal, manifest):
@@ -160,7 +160,7 @@ def written_by_the_next_version(tmp_path, monkeypatch):
     ],
 )
 def test_a_newer_format_is_refused_with_the_version_it_needs(written_by_the_next_version, read):
-    with pytest.raises(RefusalError, match=r"has format 2, .* reads formats up to 1\. Use runout-campaign 9\.1\.0"):
+    with pytest.raises(RefusalError, match=r"has format 3, .* reads formats up to 2\. Use runout-campaign 9\.1\.0"):
         read(written_by_the_next_version)
 
 

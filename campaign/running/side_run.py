@@ -1,0 +1,100 @@
+"""Runs besides a campaign's own, in a directory of their own, which tell an error that sampling does not show."""
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import NamedTuple
+
+from campaign.errors import RefusalError
+from campaign.record import RealizationSummary
+from campaign.running.level import Level
+from campaign.simulation.contract import Prepare, PreparedGround
+from campaign.statistics.tally import Tally
+from campaign.terminal import say
+
+HandOut = Callable[[Level, PreparedGround, Tally], str]
+"""Has all ranks compute what an account lacks, and says why that ended early, "" if it did not."""
+
+
+class Means(NamedTuple):
+    """What it takes to run something.
+
+    Attributes
+    ----------
+    home
+        The campaign's directory.
+    prepare
+        Computes what realizations share.
+    hand_out
+        Has all ranks compute realizations.
+    stopped
+        Why nothing new may be begun, "" if it may.
+    """
+
+    home: Path
+    prepare: Prepare
+    hand_out: HandOut
+    stopped: str
+
+
+class SideRun(NamedTuple):
+    """Runs to be made.
+
+    Attributes
+    ----------
+    level
+        Their scene and directory.
+    announcement
+        Said before they begin.
+    loss
+        A sentence on what cannot be said without them.
+    known
+        Those of them that need not be made.
+    """
+
+    level: Level
+    announcement: str
+    loss: str
+    known: Iterable[RealizationSummary] = ()
+
+
+class Made(NamedTuple):
+    """The account of the runs, None if it is not whole, and why it may become so later, "" if it will not."""
+
+    tally: Tally | None
+    stopped: str
+
+
+def make(run: SideRun, means: Means) -> Made:
+    """Make the runs that earlier starts have not made."""
+    try:
+        for note in run.level.open():
+            say(note)
+        tally = _account(run)
+        if tally.size is None and not means.stopped:
+            return _compute(run, means)
+    except RefusalError as refusal:
+        say(f"{run.loss} {refusal}")
+        return Made(None, "")
+    except OSError as error:
+        return Made(None, f"{run.level.directory} cannot be written ({error})")
+    return _made(tally, means.stopped)
+
+
+def _compute(run: SideRun, means: Means) -> Made:
+    say(run.announcement)
+    ground = means.prepare(run.level.scene, means.home)
+    run.level.give_up_crashed(ground)
+    tally = _account(run)
+    stopped = means.hand_out(run.level, ground, tally)
+    return _made(tally, stopped)
+
+
+def _made(tally: Tally, stopped: str) -> Made:
+    return Made(None, stopped) if tally.size is None else Made(tally, "")
+
+
+def _account(run: SideRun) -> Tally:
+    tally = run.level.tally()
+    for summary in run.known:
+        tally.add(summary)
+    return tally

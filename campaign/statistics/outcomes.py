@@ -1,0 +1,100 @@
+"""What became of the first realizations: the numbers from which every estimate is made."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from campaign.record import FAILED, SLID, Front, RealizationSummary, Status
+from campaign.statistics.intervals import Sample
+
+
+class Outcomes(NamedTuple):
+    """What became of some realizations.
+
+    Attributes
+    ----------
+    realizations : int
+        All of them, whatever became of them.
+    usable : int
+        Those with a result.
+    runouts : array (slides,)
+        Run-outs of those that slid [m], in the order of their ids.
+    is_hindered : bool array (slides,)
+        Whether a wall of the model was in the way, so that the run-out is a lower bound.
+    """
+
+    realizations: int
+    usable: int
+    runouts: Sample
+    is_hindered: NDArray[np.bool_]
+
+    @property
+    def slides(self) -> int:
+        """Number of realizations that slid."""
+        return len(self.runouts)
+
+    @property
+    def hindered(self) -> int:
+        """Number of slides that a wall was in the way of."""
+        return int(np.count_nonzero(self.is_hindered))
+
+    def beyond(self, distance: float) -> int:
+        """Return how many ran farther than a distance [m]."""
+        return int(np.count_nonzero(self.runouts > distance))
+
+    def undecided(self, distance: float) -> int:
+        """Return how many may have run farther than a distance [m] but for a wall."""
+        return int(np.count_nonzero(self.is_hindered & (self.runouts <= distance)))
+
+
+class Account:
+    """Outcomes of realizations 0, 1, 2, ..., kept up to date at the cost of one as each is added.
+
+    Parameters
+    ----------
+    maximum
+        Number of realizations that there may be.
+    front
+        Whose run-out counts.
+
+    Attributes
+    ----------
+    failed : int
+        Realizations without a result.
+    """
+
+    def __init__(self, maximum: int, front: Front) -> None:
+        self.front = front
+        self.failed = 0
+        self._realizations = self._usable = self._slides = 0
+        self._runouts = np.empty(maximum)
+        self._is_hindered = np.empty(maximum, dtype=np.bool_)
+
+    def add(self, summary: RealizationSummary) -> None:
+        """Take the next realization into the account."""
+        self._realizations += 1
+        self.failed += summary.status in FAILED
+        runout = summary.runout(self.front)
+        if not np.isfinite(runout):
+            return
+        self._usable += 1
+        if summary.status in SLID:
+            self._runouts[self._slides] = runout
+            self._is_hindered[self._slides] = summary.status is Status.reached_wall
+            self._slides += 1
+
+    def outcomes(self) -> Outcomes:
+        """Return the outcomes so far; they stay what they are when more are added."""
+        slid = slice(self._slides)
+        return Outcomes(self._realizations, self._usable, self._runouts[slid], self._is_hindered[slid])
+
+
+def outcomes_of(summaries: Iterable[RealizationSummary], front: Front) -> Outcomes:
+    """Return the outcomes of realizations in the order of their ids."""
+    given = list(summaries)
+    account = Account(len(given), front)
+    for summary in given:
+        account.add(summary)
+    return account.outcomes()

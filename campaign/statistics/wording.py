@@ -1,0 +1,36 @@
+"""Numbers and intervals as text, for verdict, progress, answer and report alike."""
+
+from campaign.statistics.intervals import Interval
+
+
+def percent(share: float) -> str:
+    """Write a share in per cent, with three digits or all before the decimal point."""
+    return f"{100 * share:.3g} %" if share < 1 else f"{100 * share:.0f} %"
+
+
+def chance(probability: float) -> str:
+    """Write a probability in per cent, whole where it is neither small nor near 1: "7.1 %", "35 %", "97.6 %"."""
+    if 0.1 <= probability <= 0.9:
+        return f"{100 * probability:.0f} %"
+    return f"{100 * probability:.{2 if probability < 0.1 else 3}g} %"
+
+
+def chances(interval: Interval) -> str:
+    """Write the bounds of a probability in per cent, "35 to 55 %"."""
+    if not interval.is_known:
+        return "not enough realizations"
+    return f"{chance(interval.lower).removesuffix(' %')} to {chance(interval.upper)}"
+
+
+def metres(interval: Interval) -> str:
+    """Write the bounds of a length in m, "10.61 to 11.02 m"."""
+    return f"{interval.lower:.2f} to {interval.upper:.2f} m" if interval.is_known else "not enough slides"
+
+
+def chance_of_slide(probability: Interval) -> str:
+    """Say how probable a slide is, to follow "the probability of a slide is": "at most 7.1 %", "35 to 55 %"."""
+    if probability.estimate == 0:
+        return f"at most {chance(probability.upper)}"
+    if probability.estimate == 1:
+        return f"at least {chance(probability.lower)}"
+    return chances(probability)
