@@ -70,7 +70,11 @@ def as_dataset(found: Tradeoff) -> xr.Dataset:
     ids = np.arange(BASELINE, len(found.reference.runouts) + BASELINE)
     runouts = np.stack([trial.runouts for trial in trials])
     seconds = np.array([trial.seconds for trial in trials])
-    runout_about = {"units": "m", "long_name": "final run-out; NaN where there is none"}
+    runout_about = {
+        "units": "m",
+        "long_name": "final run-out of the front that slide.front names; NaN where there is none",
+    }
+    overrides = "\n".join(found.scene.overrides)
     cpu_about = {"units": "s", "long_name": "median CPU time of a realization; the estimate where none was run"}
     return xr.Dataset(
         {
@@ -79,7 +83,12 @@ def as_dataset(found: Tradeoff) -> xr.Dataset:
             "remark": ("setting", np.array([trial.reason for trial in trials], dtype=object)),
         },
         {"setting": np.array([trial.setting for trial in trials], dtype=object), "realization": ids},
-        {"reference": found.reference.setting, "advice": found.advice, "scene": found.scene.text},
+        {
+            "reference": found.reference.setting,
+            "advice": found.advice,
+            "scene": found.scene.text,
+            "scene_overrides": overrides,
+        },
     )
 
 

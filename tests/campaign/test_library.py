@@ -48,6 +48,16 @@ def test_the_lines_of_readme_run(notebook):
         assert data.sizes["realization"] == 10
 
 
+def test_the_lines_that_analyse_results_run(notebook):
+    directory, _ = notebook
+    lines = lines_of("analysis").replace("campaign-ma2023", "stronger")
+    result = run_program(f"import matplotlib\nmatplotlib.use('agg')\n{lines}", directory)
+    assert result.returncode == 0, result.stderr
+    with xr.open_dataset(directory / "stronger" / "results.nc") as data:
+        beyond = (data.final_runout_mass[data.slid] > 12).sum() / data.usable.sum()
+    assert f"{float(beyond):.0%} of all realizations run farther than 12 m" in result.stdout
+
+
 def test_they_leave_the_process_as_it_was(notebook):
     assert notebook[1].stdout.splitlines()[-1] == "True"
 

@@ -51,7 +51,7 @@ class StandIn:
                 raise Interrupted
             time.sleep(0.005)
         misbehave(realization)
-        return record(self.scene.campaign.seed, realization, self.scene.numerics.cell)
+        return record(self.scene, realization)
 
 
 def prepare(scene: Scene, _directory: Path) -> StandIn:
@@ -69,17 +69,19 @@ def misbehave(realization: int) -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
 
 
-def record(seed: int, realization: int, cell: float) -> Record:
+def record(scene: Scene, realization: int) -> Record:
+    seed, cell, ramped = scene.campaign.seed, scene.numerics.cell, scene.numerics.gravity == "ramp"
     rng = np.random.default_rng(0) if realization == BASELINE else generator(seed, Stream.FIELD, realization)
     values = {
         name: rng.normal(10, 0.5, [SIZES[dim] for dim in quantity.dims]).astype(quantity.dtype)
         for name, quantity in MEASURED.items()
     }
-    values["final_runout"] = values["final_runout"] + 2.0 * (1.0 - cell) * (1 + 0.1 * realization)
+    values["final_runout"] = values["final_runout"] + 2.0 * (1.0 - cell) * (1 + 0.1 * realization) + 0.6 * ramped
     values["final_runout_mass"] = values["final_runout"]
     values["displaced"] = rng.integers(0, 2, SIZES["particle"], "u1")
     values["wall_time"] = time.process_time()
-    return Record(realization, Status.slid, "", values, UNITS)
+    status = Status.no_slide if "STAND_IN_STABLE" in os.environ else Status.slid
+    return Record(realization, status, "", values, UNITS)
 
 
 if __name__ == "__main__":

@@ -226,7 +226,8 @@ def test_a_directory_of_another_scene_is_refused_with_the_keys_that_differ(tmp_p
 def test_a_realization_that_takes_too_long_is_a_status_even_if_it_is_the_baseline(tmp_path):
     code, output = campaign(tmp_path / "out", 4, overrides=["campaign.realization_timeout=0.05 s"], seconds=0.3)
     assert code == 3
-    assert "none of the 4 realizations gave a run-out" in output
+    assert "No answer: all 4 realizations failed" in output
+    assert "probability of a slide: no realization with a result" in output
     result = dataset(tmp_path / "out")
     assert (result.status == result.deterministic_status).all()
     assert "realization_timeout" in str(result.reason[0].values)
@@ -261,10 +262,44 @@ def test_half_the_cell_tells_the_discretisation_error(paired):
     assert float(paired.deterministic_paired_difference) == pytest.approx(0.9)
 
 
+def test_the_other_release_tells_what_the_protocol_changes(paired):
+    """The stand-in runs 0.6 m farther when gravity is raised while the ground yields."""
+    change = float(paired.other_release_final_runout_mass - paired.deterministic_final_runout_mass)
+    assert change == pytest.approx(0.6)
+
+
+def test_a_kill_in_the_other_release_leaves_no_trace(paired, tmp_path):
+    directory = tmp_path / "out"
+    process = start(directory, 20, 2, [PAIRS], seconds=0.3)
+    wait_for_attempts(directory / "other-release")
+    os.killpg(process.pid, signal.SIGKILL)
+    process.communicate(timeout=20)
+    wait_for_the_end(directory)
+    assert not list(directory.glob("other-release/records/*.h5"))
+    code, output = campaign(directory, 20, 3, [PAIRS])
+    assert code == 0, output
+    assert "Release protocol: the deterministic run again" in output
+    assert_same(dataset(directory), paired)
+    assert "Release protocol:" not in campaign(directory, 20, 2, [PAIRS])[1]
+
+
+def test_a_stable_slope_ends_early_on_every_number_of_ranks(tmp_path):
+    sets = []
+    for ranks in (1, 3):
+        directory = tmp_path / str(ranks)
+        code, output = campaign(directory, 300, ranks, [PAIRS], stable=1, seconds=0.002)
+        assert code == 0, output
+        assert "It does not slide: 0 of 50 realizations slid" in output
+        assert "50 realizations" in status(directory)
+        sets.append(dataset(directory))
+    assert sets[0].sizes["realization"] == 50
+    assert_same(*sets)
+
+
 def test_the_number_of_ranks_leaves_no_trace_in_the_repeated(paired, tmp_path):
     code, output = campaign(tmp_path / "out", 20, 3, [PAIRS], seconds=0.01)
     assert code == 0, output
-    assert "1.25 m (+1.25 m) (+1.05 to +1.45 m), n = 6" in output
+    assert "changed by cells of 0.5 m: +1.25 m (+1.05 to +1.45 m), n = 6" in output
     assert_same(dataset(tmp_path / "out"), paired)
 
 
@@ -288,7 +323,7 @@ def test_what_failed_is_not_repeated(tmp_path):
     code, output = campaign(tmp_path / "out", 20, overrides=[PAIRS], **{"raise": 2})
     assert code == 0, output
     assert np.isnan(dataset(tmp_path / "out").paired_difference).sum() == 1
-    assert re.search(r"by what cells of 0.5 m change: .*, n = 5\n", output)
+    assert re.search(r"changed by cells of 0.5 m: .*, n = 5\n", output)
     assert not (tmp_path / "out" / "half-cell" / "records" / "realization-000002.h5").exists()
 
 

@@ -23,6 +23,8 @@ def test_what_decides_a_realization_changes_its_identity() -> None:
         "campaign.minimum=20",
         "campaign.realization_timeout=2 h",
         "campaign.confidence=0.9",
+        "campaign.slide_probability_tolerance=0.05",
+        "slide.front=tip",
         "numerics.cell=100 cm",
         "numerics.flip=1",
     ],

@@ -90,7 +90,8 @@ def test_a_short_comparison_on_the_command_line(tmp_path, monkeypatch, capsys):
     with xr.open_dataset(tmp_path / "t" / "tradeoff.nc") as data:
         kept = data.load()
     record = prepare(load_scene("ma2023", SHORT)).simulate(0)
-    assert float(kept.final_runout.sel(setting=OWN, realization=0)) == record.values["final_runout"]
+    assert float(kept.final_runout.sel(setting=OWN, realization=0)) == record.values["final_runout_mass"]
+    assert kept.attrs["scene_overrides"].split("\n") == SHORT
     with (tmp_path / "t" / "tradeoff.csv").open() as file:
         assert len(list(csv.reader(file))) == 1 + kept.sizes["setting"]
     assert (tmp_path / "t" / "tradeoff.png").stat().st_size > 5000
