@@ -106,7 +106,7 @@ def test_the_probability_of_a_slide_alone_can_hold_a_campaign_back():
     statuses = [Status.slid, Status.no_slide] * 100
     tally = campaign(statuses, StoppingRule(0.5, 5.0, 0.95, 50, 25, 0.02))
     assert tally.history().verdict == (
-        "not converged after 200 realizations: the probability of a slide is known to ±7.1 %, ±2 % was asked"
+        "not converged after 200 realizations: the probability of a slide is known to ±7.13 %, ±2 % was asked"
     )
 
 
