@@ -1,5 +1,8 @@
 """The solver's view of a scene."""
 
+import math
+from decimal import Decimal
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -54,9 +57,10 @@ def softening_rate(scene: Scene) -> float:
 
 
 def output_times(end_time: float, interval: float) -> Array:
-    """Return the times 0, `interval`, ... and `end_time`, in s."""
-    times = interval * np.arange(np.ceil(end_time / interval - 1e-9))
-    return np.append(times, end_time)
+    """Return the times 0, `interval`, ... and `end_time`, in s, so that 0.3 is found as 0.3 and not beside it."""
+    step = Decimal(repr(float(interval)))
+    times = [float(k * step) for k in range(math.ceil(end_time / interval - 1e-9))]
+    return np.array([*times, end_time])
 
 
 def column_edges(model: Model) -> Array:
