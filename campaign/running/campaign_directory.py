@@ -5,13 +5,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeAlias
 
-import xarray as xr
-
 from campaign.errors import RefusalError
 from campaign.exit_codes import ExitCode
-from campaign.report.summary import summary
-from campaign.results import dataset
-from campaign.results.results import Results
 from campaign.running.beyond_sampling import BeyondSampling
 from campaign.running.level import Level
 from campaign.scene import Scene
@@ -100,9 +95,7 @@ class CampaignDirectory:
         say(f"\n{self.scene.title}: {verdict}")
         try:
             if tally.prefix > 0:
-                result = self._result(ground, tally, verdict, beyond)
-                say(summary(Results(result, self.scene)))
-                dataset.write(result, self.path / RESULTS)
+                say(self._write_results(ground, tally, verdict, beyond))
             self.level.store.pack()
             manifest.end(self.path, code, verdict)
         except OSError as error:
@@ -117,11 +110,21 @@ class CampaignDirectory:
             say("Give the same command again to continue.")
         return code
 
-    def _result(self, ground: PreparedGround, tally: Tally, verdict: str, beyond: BeyondSampling) -> xr.Dataset:
+    def _write_results(self, ground: PreparedGround, tally: Tally, verdict: str, beyond: BeyondSampling) -> str:
+        """Write the dataset and return what it says, in that order: a terminal may fail, the results must be safe.
+
+        What this needs is loaded here, once, and not by every rank at its start.
+        """
+        from campaign.report.summary import summary
+        from campaign.results import dataset
+        from campaign.results.results import Results
+
         about = attributes(self.scene, manifest.read(self.path), verdict)
         columns, baseline = self.level.store.columns(tally.prefix), self.level.store.read(BASELINE)
         known = (beyond.discretisation, beyond.release)
-        return dataset.build(ground, columns, baseline, tally.history(), about, *known)
+        result = dataset.build(ground, columns, baseline, tally.history(), about, *known)
+        dataset.write(result, self.path / RESULTS)
+        return summary(Results(result, self.scene))
 
 
 def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:

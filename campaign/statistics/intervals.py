@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special, stats
+from scipy import special
 
 Sample = NDArray[np.float64]
 
@@ -101,7 +101,9 @@ def kurtosis(values: Sample) -> float:
     n = len(values)
     if n < FEWEST_FOR_KURTOSIS or np.ptp(values) == 0:
         return math.nan
-    centre = stats.trim_mean(values, 1 / (2 * math.sqrt(n - 4)))
+    from scipy.stats import trim_mean  # takes half a second to load, which not every rank should pay
+
+    centre = trim_mean(values, 1 / (2 * math.sqrt(n - 4)))
     return float(n * np.sum((values - centre) ** 4) / np.sum((values - np.mean(values)) ** 2) ** 2)
 
 
@@ -174,5 +176,7 @@ def quantile_interval(values: Sample, probability: float, confidence: float) -> 
     n = len(values)
     if n == 0:
         return unknown(math.nan, 0)
-    bounds = stats.quantile_test(values, p=probability).confidence_interval(confidence)
+    from scipy.stats import quantile_test
+
+    bounds = quantile_test(values, p=probability).confidence_interval(confidence)
     return Interval(float(np.quantile(values, probability)), float(bounds.low), float(bounds.high), n)

@@ -2,7 +2,7 @@
 
 import math
 
-from scipy import special, stats
+from scipy import special
 
 from campaign.statistics.intervals import Interval, unknown
 from campaign.statistics.outcomes import Outcomes
@@ -42,7 +42,9 @@ def proportion_interval(successes: int, n: int, confidence: float) -> Interval:
     """
     if n == 0:
         return unknown(math.nan, 0)
-    bounds = stats.binomtest(successes, n).proportion_ci(confidence, method="wilson")
+    from scipy.stats import binomtest  # takes half a second to load
+
+    bounds = binomtest(successes, n).proportion_ci(confidence, method="wilson")
     return Interval(successes / n, float(bounds.low), float(bounds.high), n)
 
 

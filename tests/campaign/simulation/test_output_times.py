@@ -8,7 +8,7 @@ import pytest
 from campaign.simulation.solver_model import output_times
 
 
-@pytest.mark.parametrize(("end", "interval"), [("10", "0.1"), ("2", "0.02"), ("8", "0.3"), ("1", "0.7"), ("60", "0.05")])
+@pytest.mark.parametrize(("end", "interval"), [("10", "0.1"), ("2", "0.02"), ("8", "0.3"), ("1", "0.7"), ("6", "0.05")])
 def test_every_output_time_is_the_float_of_its_decimal(end, interval):
     times = output_times(float(end), float(interval))
     k = 0
