@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from scipy import stats
 
 from campaign.record import Status
 from campaign.statistics.intervals import Interval, Sample, quantile_interval, unknown
+from campaign.statistics.proportions import exact_interval
 
 REACHED = {
     "front_reaches": "probability that the slide's front reaches it",
@@ -92,9 +92,7 @@ def reach_probability(reaches: Sample, is_unsettled: Sample, confidence: float) 
     unknowns = int(np.count_nonzero(failed | (is_unsettled & (reaches == 0.0))))
     if n == 0:
         return unknown(math.nan, 0), (math.nan, math.nan)
-    bounds = stats.binomtest(reached, n).proportion_ci(confidence, method="exact")
-    interval = Interval(reached / n, float(bounds.low), float(bounds.high), n)
-    return interval, (reached / len(reaches), (reached + unknowns) / len(reaches))
+    return exact_interval(reached, n, confidence), (reached / len(reaches), (reached + unknowns) / len(reaches))
 
 
 def _of_one(name: str, data: xr.Dataset, confidence: float) -> Iterator[ReceptorEstimate]:
