@@ -23,8 +23,11 @@ HALF_CELL_COST = 8
 PARTICLE_BYTES = 1000
 """Of memory a particle takes while a realization runs: 750 measured with the grid under it, and room for records."""
 
-SERIES, SCALARS = 3, 16
-"""Numbers of a record that there are at every time, and once; a byte a particle says whether it has moved."""
+SERIES, RECEPTOR_SERIES = 3, 1
+"""Numbers of a record that there are at every time, and those of a receptor, in double precision."""
+
+SUMMARY_BYTES = 2000
+"""Of a record's single numbers and the coarse map of its field; a byte a particle says whether it has moved."""
 
 RANK_BYTES = 300e6
 """Of memory a rank takes without any particle, for Python and its libraries."""
@@ -86,6 +89,7 @@ def dataset_bytes(scene: Scene) -> float:
 
 
 def record_bytes(scene: Scene) -> int:
-    """Return the size of one record [bytes], whose series, surface and particles outgrow all else."""
+    """Return the size of one record [bytes], roughly."""
     columns = ceil(surface_of(scene.geometry).width / scene.numerics.cell)
-    return 8 * (SERIES * (1 + output_count(scene)) + columns + SCALARS) + particle_count(scene)
+    series = SERIES + RECEPTOR_SERIES * len(scene.receptor)
+    return 8 * (series * (1 + output_count(scene)) + columns) + SUMMARY_BYTES + particle_count(scene)

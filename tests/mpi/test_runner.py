@@ -218,7 +218,7 @@ def test_a_directory_of_another_scene_is_refused_with_the_keys_that_differ(tmp_p
     before = (tmp_path / "out" / "results.nc").read_bytes()
     code, output = campaign(tmp_path / "out", 4, overrides=["numerics.cell=0.5 m", "campaign.seed=9"])
     assert code == 2
-    assert re.search(r"campaign.seed is 9 here but 2023 .*numerics.cell is 0.5 here but 1.0", output)
+    assert re.search(r"campaign.seed is 9 here but 2023 .*numerics.cell is 0.5 m here but 1 m", output)
     assert (tmp_path / "out" / "results.nc").read_bytes() == before
     assert not (tmp_path / "out" / "lock").exists()
 
