@@ -44,15 +44,24 @@ def lay_geostatic_stress(particles: Particles, model: Model) -> None:
 
 
 def unbalanced_share(grid: Grid, gravity: float) -> float:
-    """Return ``||f_int + m g|| / ||m g||`` over the nodes that may move."""
-    weight = grid.mass * gravity
+    """Return ``||f_int + m gravity|| / ||m g||``, the force over the nodes that may move; NaN on an empty grid."""
+    weight = float(np.sum((grid.mass * STANDARD_GRAVITY) ** 2))
+    if not weight > 0.0:
+        return np.nan
     force_x = grid.force[:, 0] * grid.free_x
-    force_y = (grid.force[:, 1] - weight) * grid.free_y
-    return float(np.sqrt((np.sum(force_x**2) + np.sum(force_y**2)) / np.sum(weight**2)))
+    force_y = (grid.force[:, 1] - grid.mass * gravity) * grid.free_y
+    return float(np.sqrt((np.sum(force_x**2) + np.sum(force_y**2)) / weight))
 
 
-def in_situ_state(model: Model) -> Particles:
+def in_situ_state(model: Model, from_nothing: bool = False) -> Particles:
     """Return the particles at rest under gravity, unyielding, with zero velocity.
+
+    Parameters
+    ----------
+    model : Model
+    from_nothing : bool
+        Gravity is new to ground free of stress, which settles; else the ground is laid with the stress of its
+        overburden and stays about where it is.
 
     Raises
     ------
@@ -60,7 +69,8 @@ def in_situ_state(model: Model) -> Particles:
         If the unbalanced force does not fall below 1e-4 of the weight.
     """
     particles = ground_of(model)
-    lay_geostatic_stress(particles, model)
+    if not from_nothing:
+        lay_geostatic_stress(particles, model)
     grid = model.allocate_grid()
     work = allocate_workspace(particles.x.size)
     scheme = scheme_of(Method(model.method.basis, locking=model.method.locking), damping=LOCAL_DAMPING)

@@ -1,8 +1,6 @@
 """Release of strength and the march to rest."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from enum import Enum
 
 import numpy as np
 
@@ -10,43 +8,15 @@ from solver import observables
 from solver.constants import STANDARD_GRAVITY
 from solver.energy_guard import MOST_CREATED_EARLY, EnergyGuard
 from solver.grid import Grid
+from solver.history import MarchEnd, MarchHistory, Moment, moment
 from solver.model import Model
 from solver.particles import Particles, copy_particles
-from solver.rest import RestDetector
+from solver.rest import RestBy, RestDetector, StandDetector
 from solver.step import Workspace, advance, allocate_workspace
 from solver.timestep import even_steps, largest_courant, stable_step
+from solver.walls import Walls, reached_walls
 
 MOST_STEPS_UNCHECKED = 64
-
-
-class MarchEnd(Enum):
-    """How a march ended."""
-
-    AT_REST = "at rest"
-    END_TIME = "end time"
-    DIVERGED = "diverged"
-    LEFT_DOMAIN = "left domain"
-
-
-@dataclass
-class MarchHistory:
-    """Observables of one march at the output times; after rest the last values hold, after a failure NaN."""
-
-    time: np.ndarray  # (t,) s since release
-    runout: np.ndarray  # (t,) m
-    max_displacement: np.ndarray  # (t,) m
-    kinetic_energy: np.ndarray  # (t,) J/m, of the motion resolved by the grid
-    end: MarchEnd
-    reason: str
-    settle_time: float  # s, NaN if it did not come to rest
-    energy_error: float  # see EnergyGuard.error
-    steps: int
-    particles: Particles  # at the end
-
-    @property
-    def has_failed(self) -> bool:
-        """Whether the march broke off."""
-        return self.end in (MarchEnd.DIVERGED, MarchEnd.LEFT_DOMAIN)
 
 
 class March:
@@ -57,11 +27,14 @@ class March:
     model : Model
     start : Particles
         The in-situ state with peak strengths assigned; not modified.
+    settled : Particles, optional
+        The same ground at rest under gravity, where ``start`` is not: displacement counts from there.
     """
 
-    def __init__(self, model: Model, start: Particles) -> None:
+    def __init__(self, model: Model, start: Particles, settled: Particles | None = None) -> None:
         self.model = model
         self.start = start
+        self.settled = settled or start
         self.particles = copy_particles(start)
         self.grid: Grid = model.allocate_grid()
         self.work: Workspace = allocate_workspace(start.x.size)
@@ -71,6 +44,27 @@ class March:
         self.time = 0.0
         self.steps = 0
         self.reason = ""
+        self._take_steps(0, 0.0)  # the grid shows the start
+
+    @property
+    def reference(self) -> Particles:
+        """The ground from whose places displacement counts: at rest under the gravity of now."""
+        if self.settled is self.start:
+            return self.start
+        share = self._gravity()[0] / STANDARD_GRAVITY
+        start, settled = self.start, self.settled
+        x, y = start.x + share * (settled.x - start.x), start.y + share * (settled.y - start.y)
+        return start._replace(x=x, y=y)
+
+    def moment(self) -> Moment:
+        """Return what is seen of the slide now."""
+        with np.errstate(over="ignore", invalid="ignore"):  # the next step finds a bad number
+            return moment(self.particles, self.reference, self.grid, self.model, self._gravity()[0])
+
+    def reached_walls(self) -> Walls:
+        """Return the walls that the slide has reached now."""
+        grid = self.grid
+        return reached_walls(self.particles, self.reference, grid.width, grid.cell_size, self.model.criteria)
 
     def advance_to(self, time: float) -> MarchEnd | None:
         """March to ``time`` (s); return why it could not be reached, or None."""
@@ -110,15 +104,17 @@ class March:
         left = even_steps(goal - self.time, dt_most)
         dt = (goal - self.time) / left
         steps = min(left, MOST_STEPS_UNCHECKED)
-        gravity, rate = self._gravity()
-        taken = advance(
-            self.particles, self.grid, self.work, self.model.laws, self.model.scheme, gravity, rate, dt, steps
-        )
+        taken = self._take_steps(steps, dt)
         self.steps += taken
         self.time = goal if steps == left else self.time + taken * dt
         if taken < steps:
             return self._left_or_diverged()
         return None
+
+    def _take_steps(self, steps: int, dt: float) -> int:
+        gravity, rate = self._gravity()
+        model = self.model
+        return int(advance(self.particles, self.grid, self.work, model.laws, model.scheme, gravity, rate, dt, steps))
 
     def _left_or_diverged(self) -> MarchEnd:
         if not (np.isfinite(self.particles.x).all() and np.isfinite(self.particles.y).all()):
@@ -152,6 +148,7 @@ def march_to_rest(
     start: Particles,
     times: np.ndarray,
     watch: Callable[[March], None] = lambda march: None,
+    settled: Particles | None = None,
 ) -> MarchHistory:
     """Release the strength of the in-situ state at time 0 and follow the slide to rest or to the last time.
 
@@ -164,11 +161,14 @@ def march_to_rest(
         Output times in s, increasing from 0.
     watch : callable
         Called with the march at every output time; what it raises ends the march.
+    settled : Particles, optional
+        The same ground at rest under gravity, where ``start`` is not: displacement counts from there.
     """
-    march = March(model, start)
-    series = {name: np.full(times.size, np.nan) for name in ("runout", "max_displacement", "kinetic_energy")}
+    march = March(model, start, settled)
+    series = {name: np.full(times.size, np.nan) for name in Moment._fields}
     rest = RestDetector(model.criteria)
-    end = MarchEnd.END_TIME
+    stand = StandDetector(model.criteria, model.surface.relief, float(start.mass.sum()), model.ramp_time)
+    end, rest_by, walls = MarchEnd.END_TIME, RestBy.NEVER, Walls()
     failure = None
     for k, time in enumerate(times):
         failure = march.advance_to(float(time))
@@ -179,26 +179,32 @@ def march_to_rest(
         if march.energy.is_created(MOST_CREATED_EARLY):
             end = failure = march.blame_scheme()
             break
-        now = march.particles
-        farthest = float(observables.displacement(now, start).max())
-        energy = observables.resolved_kinetic_energy(march.grid)
-        series["runout"][k] = observables.runout(now, start, model.surface, model.criteria)
-        series["max_displacement"][k] = farthest
-        series["kinetic_energy"][k] = energy
-        if rest.is_over(march.time, farthest, energy):
-            end = MarchEnd.AT_REST
-            for values in series.values():
-                values[k + 1 :] = values[k]
+        now = march.moment()
+        walls |= march.reached_walls()
+        for name, values in series.items():
+            values[k:] = getattr(now, name)
+        signs = march.time, now.max_displacement, now.kinetic_energy, now.unbalanced_force
+        if rest.is_over(*signs):
+            end, rest_by = MarchEnd.AT_REST, rest.by
             break
-    if not failure and (march.energy.is_created() or march.energy.is_lost()):
-        end = march.blame_scheme()
+        if stand.stands(*signs):
+            end, rest_by = MarchEnd.STANDS, RestBy.STANDING
+            break
+    if failure:
+        for values in series.values():
+            values[k:] = np.nan
+    elif march.energy.is_created() or march.energy.is_lost():
+        end, rest_by = march.blame_scheme(), RestBy.NEVER
     return MarchHistory(
         time=times,
         end=end,
         reason=march.reason,
         settle_time=march.time if end is MarchEnd.AT_REST else np.nan,
+        rest_by=rest_by,
+        walls=walls,
         energy_error=march.energy.error(),
         steps=march.steps,
         particles=march.particles,
+        reference=march.reference,
         **series,
     )

@@ -26,29 +26,57 @@ def slope_body(start: Particles, surface: Surface) -> np.ndarray:
     return upslope
 
 
-def runout(particles: Particles, start: Particles, surface: Surface, criteria: SlideCriteria) -> float:
-    """Return the advance of the front-most slid particle of the slope body beyond the initial toe, in m (0 if none).
+def front(particles: Particles, start: Particles, surface: Surface, criteria: SlideCriteria) -> float:
+    """Return the x in m of the front-most slid particle of the slope body, NaN if none has slid.
 
-    Ground in front of the toe that is pushed or heaved does not count as run-out, only the material that comes over it.
+    Ground in front of the toe that is pushed or heaved does not count, only the material that comes over it.
     """
-    front = is_displaced(particles, start, criteria) & slope_body(start, surface)
-    return max(0.0, float(particles.x[front].max() - surface.toe_x)) if front.any() else 0.0
+    slid = is_displaced(particles, start, criteria) & slope_body(start, surface)
+    return float(particles.x[slid].max()) if slid.any() else np.nan
 
 
-def runout_mass(particles: Particles, start: Particles, surface: Surface, criteria: SlideCriteria) -> float:
-    """Return the advance in m of the place beyond which ``front_area`` of the slid slope body lies (0 if none).
+def mass_front(particles: Particles, start: Particles, surface: Surface, criteria: SlideCriteria) -> float:
+    """Return the x in m of the place beyond which ``front_area`` of the slid slope body lies, NaN if less has slid.
 
     Areas are those before the slide, because grains that part gain volume. Between particles the area ahead is
     interpolated, so the measure changes continuously with the state.
     """
-    front = is_displaced(particles, start, criteria) & slope_body(start, surface)
-    order = np.argsort(-particles.x[front], kind="stable")
-    x = particles.x[front][order]
-    area = start.volume[front][order]
+    slid = is_displaced(particles, start, criteria) & slope_body(start, surface)
+    order = np.argsort(-particles.x[slid], kind="stable")
+    x = particles.x[slid][order]
+    area = start.volume[slid][order]
     ahead = np.cumsum(area) - 0.5 * area
     if x.size == 0 or ahead[-1] < criteria.front_area:
-        return 0.0
-    return max(0.0, float(np.interp(criteria.front_area, ahead, x)) - surface.toe_x)
+        return np.nan
+    return float(np.interp(criteria.front_area, ahead, x))
+
+
+def advance(place: float, toe_x: float) -> float:
+    """Return how far in m a front at ``place`` has come beyond the initial toe: 0 behind it and where nothing slid."""
+    return max(0.0, place - toe_x) if np.isfinite(place) else 0.0
+
+
+def runout(particles: Particles, start: Particles, surface: Surface, criteria: SlideCriteria) -> float:
+    """Return the advance in m of the front-most slid particle of the slope body beyond the initial toe (0 if none)."""
+    return advance(front(particles, start, surface, criteria), surface.toe_x)
+
+
+def runout_mass(particles: Particles, start: Particles, surface: Surface, criteria: SlideCriteria) -> float:
+    """Return the advance in m of the mass front beyond the initial toe (0 if none)."""
+    return advance(mass_front(particles, start, surface, criteria), surface.toe_x)
+
+
+def base_contact(particles: Particles, start: Particles, cell_size: float, criteria: SlideCriteria) -> float:
+    """Return the share of the sliding ground, by columns one cell wide, that slips along the fixed base (0 if none).
+
+    The velocity is zero on the base, so ground of the lowest row of cells moves as far as a slope that has failed only
+    where a slip surface lies in that row.
+    """
+    far = displacement(particles, start)
+    column = np.floor(start.x / cell_size).astype(int)
+    on_base = np.unique(column[(far > criteria.failed) & (start.y < cell_size)])
+    sliding = np.unique(column[far > criteria.displaced])
+    return on_base.size / sliding.size if sliding.size else 0.0
 
 
 def sliding_volume(particles: Particles, start: Particles, criteria: SlideCriteria) -> float:

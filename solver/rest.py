@@ -1,22 +1,46 @@
-"""When a slide is over."""
+"""When a slide is over, and when a slope stands."""
+
+from collections import deque
+from enum import IntEnum
+from math import sqrt
 
 import numpy as np
 
+from solver.constants import STANDARD_GRAVITY
 from solver.slide import PAPER, SlideCriteria
 
 REST_ENERGY = 1e-3  # of the largest kinetic energy
+REST_UNBALANCED = 0.1  # of the weight: undamped ground at rest vibrates, which keeps 0.01 to 0.06 of it
+PATIENCE = 5.0  # rest times, after which quiet ground is at rest whatever its forces
+STILL = 0.4  # of the rest speed: root mean square of the speed of ground that only vibrates
+CREEP = 0.02  # of the displacement that counts: more than this is growth
+WATCH = 1.5  # times sqrt(H / g), the time in which a slope without strength would be under way
+
+
+class RestBy(IntEnum):
+    """What held when the ground was found at rest."""
+
+    NEVER = 0
+    MOTION = 1  # kinetic energy and advance alone
+    MOTION_AND_FORCE = 2
+    STANDING = 3  # it never slid: see ``StandDetector``
 
 
 class RestDetector:
-    """Decide that a slide is over: it has moved, and its energy and its advance have stayed small for a while."""
+    """Decide that a slide is over: it has moved, and its energy and its advance have stayed small for a while.
+
+    The unbalanced force has to be small as well. Where vibration keeps it up, energy and advance decide alone after a
+    longer while, and ``by`` says so.
+    """
 
     def __init__(self, criteria: SlideCriteria = PAPER) -> None:
         self._criteria = criteria
         self._largest_energy = 0.0
         self._last = (0.0, 0.0)
         self._quiet_since = np.nan
+        self.by = RestBy.NEVER
 
-    def is_over(self, time: float, farthest: float, energy: float) -> bool:
+    def is_over(self, time: float, farthest: float, energy: float, unbalanced: float) -> bool:
         """Return whether the slide has come to rest.
 
         Parameters
@@ -27,6 +51,8 @@ class RestDetector:
             Largest displacement of a particle in m.
         energy : float
             Kinetic energy in J/m.
+        unbalanced : float
+            Unbalanced force over the weight.
         """
         criteria = self._criteria
         self._largest_energy = max(self._largest_energy, energy)
@@ -37,4 +63,54 @@ class RestDetector:
             self._quiet_since = np.nan
         elif np.isnan(self._quiet_since):
             self._quiet_since = time
-        return bool(time - self._quiet_since >= criteria.rest_time - 1e-9)
+        quiet = time - self._quiet_since + 1e-9
+        if quiet >= criteria.rest_time and unbalanced < REST_UNBALANCED:
+            self.by = RestBy.MOTION_AND_FORCE
+        elif quiet >= PATIENCE * criteria.rest_time:
+            self.by = RestBy.MOTION
+        return self.by is not RestBy.NEVER
+
+
+class StandDetector:
+    """Decide that a slope stands: long enough for a slide to get under way, nothing has grown.
+
+    Ground that is released without damping vibrates on for ever, so neither energy nor force need vanish; they only
+    have to be small. What tells a slope that stands from one that creeps before it fails is that its largest
+    displacement does not grow.
+
+    Parameters
+    ----------
+    criteria : SlideCriteria
+    height : float
+        Of the slope in m.
+    mass : float
+        Of the ground in kg/m.
+    loaded_at : float
+        Time in s from which on gravity is whole; earlier nothing is judged.
+    """
+
+    def __init__(self, criteria: SlideCriteria, height: float, mass: float, loaded_at: float = 0.0) -> None:
+        self._criteria = criteria
+        self._watch = max(WATCH * sqrt(height / STANDARD_GRAVITY), criteria.rest_time)
+        self._most_energy = 0.5 * mass * (STILL * criteria.rest_speed) ** 2
+        self._loaded_at = loaded_at
+        self._seen: deque[tuple[float, float, float, float]] = deque()
+
+    def stands(self, time: float, farthest: float, energy: float, unbalanced: float) -> bool:
+        """Return whether the slope is known to stand; parameters as of ``RestDetector.is_over``."""
+        if time < self._loaded_at:
+            return False
+        seen = self._seen
+        seen.append((time, farthest, energy, unbalanced))
+        while len(seen) > 1 and seen[1][0] <= time - self._watch + 1e-9:
+            seen.popleft()
+        if len(seen) < 3 or seen[0][0] > time - self._watch + 1e-9:
+            return False
+        _, displacements, energies, forces = np.array(seen).T
+        grown = float(np.ptp(displacements))
+        return bool(
+            displacements.max() <= self._criteria.displaced
+            and grown <= CREEP * self._criteria.displaced
+            and energies.max() <= self._most_energy
+            and np.all(forces[1:] < REST_UNBALANCED)
+        )

@@ -5,7 +5,10 @@ go with the root of a displacement, and a column of 0.1 m is judged like a slope
 """
 
 from math import sqrt
-from typing import NamedTuple
+from typing import Literal, NamedTuple, TypeAlias
+
+Front: TypeAlias = Literal["mass", "tip"]
+"""The front of a slide: that of its mass, ahead of which `front_area` lies, or its front-most particle."""
 
 
 class SlideCriteria(NamedTuple):
@@ -14,6 +17,7 @@ class SlideCriteria(NamedTuple):
     displaced: float  # m: a particle displaced farther belongs to the sliding mass
     failed: float  # m: a slope of which a particle is displaced farther has failed; arms the end criterion
     front_area: float  # m2: the mass front leaves this much of the sliding mass ahead of it
+    front: Front = "mass"  # the front whose place is followed
 
     @property
     def rest_speed(self) -> float:
@@ -26,5 +30,5 @@ class SlideCriteria(NamedTuple):
         return 0.2 * sqrt(self.failed)
 
 
-PAPER = SlideCriteria(displaced=0.1, failed=1.0, front_area=0.25)
-"""The displacements of Ma, Rezania and Mousavi Nezhad, section 3.2."""
+PAPER = SlideCriteria(displaced=0.1, failed=1.0, front_area=0.25, front="tip")
+"""The displacements and the front of Ma, Rezania and Mousavi Nezhad, section 3.2."""

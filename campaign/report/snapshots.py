@@ -19,7 +19,7 @@ class Snapshot(NamedTuple):
     time: float  # s since release
     x: Array  # (n,) m
     y: Array  # (n,) m
-    displacement: Array  # (n,) m since release
+    displacement: Array  # (n,) m from the ground at rest
     plastic_strain: Array  # (n,)
     runout: float  # m
 
@@ -75,8 +75,8 @@ def replay(ground: Ground, realization: int, times: Sequence[float] = ()) -> Rep
 
 def snapshot(march: March, front: Front) -> Snapshot:
     """Return what a figure shows of a march, with the run-out of a front."""
-    now, start = march.particles, march.start
-    moved = displacement(now, start)
+    now, reference = march.particles, march.reference
+    moved = displacement(now, reference)
     measure = runout_mass if front == "mass" else runout
-    ran = measure(now, start, march.model.surface, march.model.criteria)
+    ran = measure(now, reference, march.model.surface, march.model.criteria)
     return Snapshot(march.time, now.x.copy(), now.y.copy(), moved, now.plastic_strain.copy(), ran)

@@ -72,7 +72,7 @@ def state(march: March) -> tuple[Array, dict[str, Array]]:
     The elevation is the second coordinate, as ParaView looks along the third. Vectors have three components, and the
     symmetric stress has six: xx, yy, zz, xy, yz, xz.
     """
-    now, start = march.particles, march.start
+    now, start = march.particles, march.reference
     zero = np.zeros_like(now.x)
     points = np.column_stack([now.x, now.y, zero])
     cohesion, friction_angle = mobilised_strength(now, march.model.materials)

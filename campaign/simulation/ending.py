@@ -12,7 +12,7 @@ from campaign.simulation import field_summary
 from campaign.simulation.receptors import ReceptorLog
 from campaign.simulation.solver_model import Array, column_edges
 from solver import observables
-from solver.march import MarchHistory
+from solver.history import MarchHistory
 from solver.model import Model
 from solver.particles import Particles
 
@@ -25,8 +25,9 @@ class Ending:
     ----------
     model : solver.model.Model
     start : Particles
-        The in-situ state with the peak strengths of the realization.
-    history : solver.march.MarchHistory
+        The ground from whose places displacement counts: at rest under gravity, with the peak strengths of the
+        realization.
+    history : solver.history.MarchHistory
         The series in time and the particles at the end.
     begin : float
         When the simulation began, on the clock of `time.perf_counter` [s].

@@ -47,6 +47,8 @@ class Ground:
         The particles on their lattice, where they read the random field.
     in_situ : Particles
         The same particles when strength is released: at rest under gravity, or unloaded for a gravity ramp.
+    settled : Particles
+        The same particles at rest under gravity, from whose places displacement counts.
     sampler : StrengthSampler
         Draws the strengths of a realization.
     """
@@ -55,6 +57,7 @@ class Ground:
     model: Model
     lattice: Particles
     in_situ: Particles
+    settled: Particles
     sampler: StrengthSampler
 
     @cached_property
@@ -66,7 +69,7 @@ class Ground:
             "x": 0.5 * (edges[1:] + edges[:-1]),
             "particle_x": self.lattice.x,
             "particle_y": self.lattice.y,
-            "initial_surface": deposit_surface(self.in_situ, 0.5 * self.model.particle_spacing, edges),
+            "initial_surface": deposit_surface(self.settled, 0.5 * self.model.particle_spacing, edges),
         }
         places |= {
             "property": np.array([row.name for row in self.random_properties], dtype=TEXT),
@@ -157,6 +160,7 @@ class Ground:
             observe,
             receptors=self.stretches,
             field_map=self.boxes.means(field),
+            settled=self.settled if self.scene.numerics.gravity == "ramp" else None,
         )
 
     def simulate_mean(self) -> Record:
@@ -214,8 +218,10 @@ def prepare(scene: Scene, directory: Path | None = None) -> Ground:
     """
     model = model_of(scene)
     lattice = ground_of(model)
-    in_situ = _loaded(model) if scene.numerics.gravity == "release" else copy_particles(lattice)
-    return Ground(scene, model, lattice, in_situ, _sampler(scene, model.surface, directory))
+    is_ramp = scene.numerics.gravity == "ramp"
+    settled = _loaded(model, from_nothing=is_ramp)
+    in_situ = copy_particles(lattice) if is_ramp else settled
+    return Ground(scene, model, lattice, in_situ, settled, _sampler(scene, model.surface, directory))
 
 
 def strengths_of(scene: Scene, realization: int) -> Strengths:
@@ -223,9 +229,9 @@ def strengths_of(scene: Scene, realization: int) -> Strengths:
     return _sampler(scene, surface_of(scene.geometry), None).draw(scene.campaign.seed, realization)
 
 
-def _loaded(model: Model) -> Particles:
+def _loaded(model: Model, from_nothing: bool) -> Particles:
     try:
-        return in_situ_state(model)
+        return in_situ_state(model, from_nothing)
     except NotSettledError as error:
         raise RefusalError(str(error)) from error
 

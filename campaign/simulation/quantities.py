@@ -27,10 +27,24 @@ QUANTITIES: dict[str, Measured] = {
         compute=lambda end: end.history.runout,
         after_failure=True,
     ),
+    "runout_mass": Measured(
+        ("time",),
+        "m",
+        "advance of the front beyond which slide.front_area of slid material lies",
+        compute=lambda end: end.history.runout_mass,
+        after_failure=True,
+    ),
+    "front_position": Measured(
+        ("time",),
+        "m",
+        "place of the front that slide.front chooses; missing while nothing slides",
+        compute=lambda end: end.history.front_position,
+        after_failure=True,
+    ),
     "max_displacement": Measured(
         ("time",),
         "m",
-        "largest particle displacement since release",
+        "largest particle displacement, from the ground at rest under the gravity of the time",
         compute=lambda end: end.history.max_displacement,
         after_failure=True,
     ),
@@ -39,6 +53,13 @@ QUANTITIES: dict[str, Measured] = {
         "J/m",
         "kinetic energy per metre run",
         compute=lambda end: end.history.kinetic_energy,
+        after_failure=True,
+    ),
+    "unbalanced_force": Measured(
+        ("time",),
+        "1",
+        "norm of the unbalanced nodal forces over that of the weight",
+        compute=lambda end: end.history.unbalanced_force,
         after_failure=True,
     ),
     "final_runout": Measured(
@@ -51,7 +72,7 @@ QUANTITIES: dict[str, Measured] = {
         (),
         "m",
         "final advance of the front beyond which slide.front_area of slid material lies",
-        compute=lambda end: observables.runout_mass(end.particles, end.start, end.model.surface, end.model.criteria),
+        compute=lambda end: end.history.runout_mass[-1],
     ),
     "sliding_volume": Measured(
         (),
@@ -73,8 +94,21 @@ QUANTITIES: dict[str, Measured] = {
             end.particles, end.start, end.model.surface, end.model.criteria, end.model.particle_spacing
         ),
     ),
+    "base_contact": Measured(
+        (),
+        "1",
+        "share of the sliding ground, by columns, that slips along the fixed base",
+        compute=lambda end: observables.base_contact(end.particles, end.start, end.model.cell_size, end.model.criteria),
+    ),
     "settle_time": Measured(
         (), "s", "time from release to rest", compute=lambda end: end.history.settle_time, after_failure=True
+    ),
+    "rest_by": Measured(
+        (),
+        "1",
+        "what held at rest: 0 no rest, 1 kinetic energy and advance, 2 the unbalanced force too, 3 it never slid",
+        "i8",
+        compute=lambda end: end.history.rest_by,
     ),
     "energy_error": Measured(
         (), "1", "energy imbalance over the work of gravity", compute=lambda end: end.history.energy_error

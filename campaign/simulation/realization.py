@@ -5,12 +5,13 @@ from collections.abc import Callable
 
 from campaign.record import Record, Status
 from campaign.simulation.contract import Interrupted
-from campaign.simulation.detachment import CAME_APART
 from campaign.simulation.ending import Ending
+from campaign.simulation.flags import flags
 from campaign.simulation.quantities import UNITS, measure
 from campaign.simulation.receptors import NO_RECEPTORS, ReceptorLog
 from campaign.simulation.solver_model import Array
-from solver.march import March, MarchEnd, MarchHistory, march_to_rest
+from solver.history import MarchEnd, MarchHistory
+from solver.march import March, march_to_rest
 from solver.model import Model
 from solver.particles import Particles
 from solver.slide import SlideCriteria
@@ -34,6 +35,7 @@ def simulate(
     observe: Callable[[March], None] = nothing,
     receptors: Array = NO_RECEPTORS,
     field_map: Array | None = None,
+    settled: Particles | None = None,
 ) -> Record:
     """Simulate one realization.
 
@@ -54,6 +56,8 @@ def simulate(
         Near and far end in m of each place at which to look at the slide.
     field_map : ndarray, optional
         What `campaign.simulation.field_summary.BoxMap` makes of the random field, for the record.
+    settled : Particles, optional
+        The same ground at rest under gravity, where `start` is not: displacement counts from there.
 
     Raises
     ------
@@ -70,9 +74,9 @@ def simulate(
         if log is not None:
             log.observe(march)
 
-    history = march_to_rest(model, start, times, watch)
-    values = measure(Ending(model, start, history, begin, log, field_map))
-    reason = CAME_APART if values["detached_volume"] > 0.0 else history.reason
+    history = march_to_rest(model, start, times, watch, settled)
+    values = measure(Ending(model, history.reference, history, begin, log, field_map))
+    reason = history.reason if history.has_failed else flags(model, history.walls, values)
     return Record(
         realization, status_of(history, model.criteria), reason, values, {name: UNITS[name] for name in values}
     )
@@ -86,4 +90,6 @@ def status_of(history: MarchHistory, criteria: SlideCriteria) -> Status:
         return Status.left_domain
     if history.max_displacement[-1] <= criteria.failed:
         return Status.no_slide
+    if any(history.walls):
+        return Status.reached_wall
     return Status.slid if history.end is MarchEnd.AT_REST else Status.not_settled

@@ -102,11 +102,12 @@ class ReceptorLog:
         """Look at the march at the next output time."""
         model, k = self._model, self._seen
         self._seen += 1
-        moved = observables.is_displaced(march.particles, march.start, model.criteria)
-        flow = self._through(march.particles, march.start, moved)
+        reference = march.reference
+        moved = observables.is_displaced(march.particles, reference, model.criteria)
+        flow = self._through(march.particles, reference, moved)
         for series, now in zip(self._flow, flow, strict=True):
             series[:, k] = self._largest(now)
-        self._front[:, k] = self._has_front(march.particles, march.start, moved)
+        self._front[:, k] = self._has_front(march.particles, reference, moved)
         self._moved[:, k] = self._front[:, k] | (self._flow.depth[:, k] > 0.0)
 
     def values(self, deposit: Particles, start: Particles) -> dict[str, Value]:

@@ -12,7 +12,7 @@ from solver.in_situ import in_situ_state
 from solver.march import March, MarchEnd, march_to_rest
 from solver.operations import GRAVITY_WORK
 from solver.particles import copy_particles
-from solver.rest import RestDetector
+from solver.rest import REST_UNBALANCED, RestBy, RestDetector
 from solver.timestep import even_steps, largest_courant, stable_step
 
 MODEL = small_model()
@@ -62,6 +62,31 @@ def test_output_beyond_rest_holds_its_last_values(slide):
         assert np.all(values[rest:] == values[rest])
 
 
+def test_forces_are_out_of_balance_in_motion_and_little_at_rest(slide):
+    """At release only those that yielding sets free: the in-situ state is balanced."""
+    assert slide.unbalanced_force[0] < 2e-4
+    assert np.nanmax(slide.unbalanced_force) > 2.0 * slide.unbalanced_force[-1]
+    assert slide.unbalanced_force[-1] < REST_UNBALANCED
+    assert slide.rest_by is RestBy.MOTION_AND_FORCE
+
+
+def test_the_front_is_missing_until_something_slides_and_then_only_gains(slide):
+    slides = np.isfinite(slide.front_position)
+    assert not slides[0]
+    assert slides[-1]
+    toe = MODEL.surface.toe_x
+    tip = np.where(slides, np.maximum(slide.front_position - toe, 0.0), 0.0)
+    np.testing.assert_allclose(slide.runout, tip, atol=1e-12)
+    assert np.all(slide.runout_mass <= slide.runout)
+    assert slide.runout_mass[-1] > 0.5
+
+
+def test_the_front_that_is_followed_is_the_one_chosen(start, slide):
+    model = MODEL._replace(criteria=MODEL.criteria._replace(front="mass"))
+    history = march_to_rest(model, start, TIMES)
+    assert history.front_position[-1] == model.surface.toe_x + slide.runout_mass[-1]
+
+
 def test_output_starts_from_nothing(slide):
     assert slide.runout[0] == slide.max_displacement[0] == slide.kinetic_energy[0] == 0.0
 
@@ -69,7 +94,7 @@ def test_output_starts_from_nothing(slide):
 def test_a_strong_slope_stays(start):
     """And its stillness is not taken for the rest after a slide."""
     still = march_to_rest(MODEL, with_strength(start, cohesion=1e6), np.linspace(0.0, 1.0, 11))
-    assert still.end is MarchEnd.END_TIME
+    assert still.end is MarchEnd.STANDS
     assert still.max_displacement[-1] < 1e-4
     assert np.isnan(still.settle_time)
     assert np.all(still.particles.plastic_strain == 0.0)
@@ -236,13 +261,22 @@ def test_rest_needs_a_slide_and_then_both_signs_for_a_while():
         (0.8, 2.003, 0.05, False),
         (0.9, 2.003, 0.05, True),
     ]
-    assert [detector.is_over(*state) for *state, _ in story] == [over for *_, over in story]
+    assert [detector.is_over(*state, 0.05) for *state, _ in story] == [over for *_, over in story]
+
+
+def test_rest_needs_balanced_forces_or_patience():
+    """Quiet ground whose forces are not balanced may be about to move; if it stays quiet, it only vibrates."""
+    story = [(0.0, 0.0, 0.0), (0.1, 2.0, 100.0), *((0.1 * k, 2.0, 0.01) for k in range(2, 30))]
+    for unbalanced, over, by in ((0.05, 0.4, RestBy.MOTION_AND_FORCE), (0.2, 1.2, RestBy.MOTION)):
+        detector = RestDetector()
+        assert next(time for time, *state in story if detector.is_over(time, *state, unbalanced)) == pytest.approx(over)
+        assert detector.by is by
 
 
 def test_a_slide_below_a_metre_does_not_arm_the_rest():
     detector = RestDetector()
     states = [(0.0, 0.0, 0.0), (0.5, 0.9, 100.0), (1.0, 0.9, 1e-6), (2.0, 0.9, 1e-6), (9.0, 0.9, 1e-6)]
-    assert not any(detector.is_over(*state) for state in states)
+    assert not any(detector.is_over(*state, 0.05) for state in states)
 
 
 def test_steps_respect_the_courant_limit_and_divide_the_interval():

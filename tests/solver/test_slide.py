@@ -48,5 +48,5 @@ def test_a_column_of_bars_comes_to_rest_on_its_own_scale():
     """Quiet after 20 mm of travel: no slide at the scale of the paper, over after two output times at its own."""
     own, paper = RestDetector(SlideCriteria(0.5e-3, 5e-3, 1e-4)), RestDetector()
     story = [(0.0, 0.0, 0.0), (0.02, 0.02, 1.0), (0.04, 0.02, 1e-6), (0.06, 0.02, 1e-6)]
-    assert [own.is_over(*state) for state in story] == [False, False, False, True]
-    assert not any(paper.is_over(*state) for state in story)
+    assert [own.is_over(*state, 0.05) for state in story] == [False, False, False, True]
+    assert not any(paper.is_over(*state, 0.05) for state in story)

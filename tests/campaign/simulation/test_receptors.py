@@ -26,7 +26,7 @@ def march(log, *states):
     """Let the log see a march in these states, and return its values after the last of them."""
     start = ground_of(MODEL)
     for state in states:
-        log.observe(SimpleNamespace(particles=state, start=start))
+        log.observe(SimpleNamespace(particles=state, reference=start))
     return log.values(states[-1]._replace(volume=start.volume), start)
 
 

@@ -1,0 +1,40 @@
+"""Sentences about a slide that ran to its end and yet is not the slope's own."""
+
+from collections.abc import Mapping
+
+from campaign.record import Value
+from campaign.simulation.detachment import CAME_APART
+from solver.model import Model
+from solver.walls import Walls
+
+CREST_WALL = (
+    "The slide has reached the wall behind the crest (x = 0 m), which hinders it; lengthen geometry.slope.crest, or "
+    "add ground there to geometry.surface."
+)
+AHEAD_WALL = (
+    "The slide has reached the wall ahead of it (x = {width:g} m), which hinders it; lengthen geometry.slope.plain, or "
+    "add ground there to geometry.surface."
+)
+ON_THE_BASE = (
+    "The slip surface runs along the fixed base under {share:.0%} of the sliding ground; deepen the foundation "
+    "(geometry.slope.foundation, or raise geometry.surface)."
+)
+
+MUCH_CONTACT = 0.1
+"""Share of the sliding ground that slips along the base, from which on the base and not the soil shapes the slide."""
+
+
+def flags(model: Model, walls: Walls, values: Mapping[str, Value]) -> str:
+    """Return what has to be said of a march that did not fail; "" if nothing.
+
+    Ground that stands on the base itself, like a heap on a floor, has no foundation that could be too thin.
+    """
+    has_foundation = model.surface.toe[1] >= model.cell_size
+    on_the_base = has_foundation and float(values["base_contact"]) > MUCH_CONTACT
+    sentences = {
+        CAME_APART: float(values["detached_volume"]) > 0.0,
+        CREST_WALL: walls.left,
+        AHEAD_WALL.format(width=model.surface.width): walls.right,
+        ON_THE_BASE.format(share=values["base_contact"]): on_the_base,
+    }
+    return " ".join(sentence for sentence, holds in sentences.items() if holds)

@@ -1,0 +1,61 @@
+"""A slide that a wall of the model hinders, or whose slip surface runs along the base, says so."""
+
+import pytest
+
+from campaign import load_scene
+from campaign.record import Status
+from campaign.seeds import BASELINE
+from campaign.simulation.ground import prepare
+
+WEAK = ["soil.cohesion.residual=4 kPa", "soil.friction_angle.residual=2 deg"]
+
+
+def deterministic(*overrides, scene="ma2023"):
+    """Return the deterministic run on cells of 1 m."""
+    return prepare(load_scene(scene, ["numerics.cell=1 m", *overrides])).simulate(BASELINE)
+
+
+def test_a_slide_clear_of_the_walls_is_a_slide():
+    record = deterministic()
+    assert (record.status, record.reason) == (Status.slid, "")
+    assert record.values["final_runout"] == pytest.approx(10.90, abs=0.02)
+    assert record.values["front_position"][-1] == 35.0 + record.values["final_runout_mass"]
+
+
+def test_the_printed_plain_of_20_metres_is_long_enough():
+    record = deterministic(scene="ma2023-printed")
+    assert record.status is Status.slid
+    assert record.values["front_position"][-1] == 35.0 + record.values["final_runout"]
+
+
+@pytest.mark.parametrize(("plain", "runout"), [("8 m", 7.57), ("4 m", 3.78), ("13 m", 10.81)])
+def test_a_slide_that_the_wall_ahead_stops_says_so(plain, runout):
+    """With a plain of 40 m it runs 10.90 m."""
+    record = deterministic(f"geometry.slope.plain={plain}")
+    assert record.status is Status.reached_wall
+    assert record.values["final_runout"] == pytest.approx(runout, abs=0.02)
+    assert "lengthen geometry.slope.plain" in record.reason
+    assert "crest" not in record.reason
+
+
+def test_a_slide_that_the_wall_behind_the_crest_holds_says_so():
+    """With a crest of 20 m the same soil runs 18.28 m, with 40 m 18.31 m."""
+    record = deterministic("geometry.slope.crest=4 m", *WEAK)
+    assert record.status is Status.reached_wall
+    assert record.values["final_runout"] == pytest.approx(11.46, abs=0.02)
+    assert "lengthen geometry.slope.crest" in record.reason
+    assert "plain" not in record.reason
+
+
+def test_a_slip_surface_along_the_base_is_flagged_and_no_failure():
+    """Undrained clay slips as deep as it can: here along the base."""
+    clay = [
+        "soil.cohesion.mean=45 kPa",
+        "soil.cohesion.residual=20 kPa",
+        "soil.friction_angle.mean=1 deg",
+        "soil.friction_angle.residual=0.5 deg",
+    ]
+    record = deterministic("geometry.slope.foundation=2 m", "geometry.slope.crest=40 m", *clay)
+    assert record.status is Status.slid
+    assert record.values["base_contact"] > 0.3
+    assert "deepen the foundation" in record.reason
