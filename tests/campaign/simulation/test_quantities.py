@@ -6,8 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 from records import GROUND, SIZES, make_record
 from small_campaign import small_scene
+from tallies import prefixes_of
 
-from campaign.record import Average, Record, Status
+from campaign.record import Average, Record, Status, summarize
 from campaign.results import dataset
 from campaign.seeds import BASELINE
 from campaign.simulation import quantities, realization, receptors
@@ -15,7 +16,8 @@ from campaign.simulation.contract import sizes
 from campaign.simulation.ending import Measured
 from campaign.simulation.ground import prepare
 from campaign.simulation.quantities import QUANTITIES, UNITS, markdown
-from campaign.statistics.convergence import StoppingRule, convergence_history
+from campaign.statistics.convergence import convergence_history
+from campaign.statistics.stopping import StoppingRule
 from campaign.storage.columns import columns_of
 from campaign.storage.record_store import RecordStore
 from solver.observables import fastest
@@ -32,6 +34,11 @@ LEFT = Measured(
 )
 
 
+def estimates_of(records):
+    """Return the convergence history of records, of which a dataset needs some."""
+    return convergence_history(prefixes_of([*map(summarize, records)]), StoppingRule(0.1, 0.1, 0.95, 10, 5, 0.1), 1.0)
+
+
 def test_a_new_row_is_measured_kept_and_shown(tmp_path, monkeypatch):
     monkeypatch.setitem(quantities.QUANTITIES, "final_speed", SPEED)
     monkeypatch.setitem(realization.UNITS, "final_speed", SPEED.units)
@@ -44,7 +51,7 @@ def test_a_new_row_is_measured_kept_and_shown(tmp_path, monkeypatch):
     kept = RecordStore(tmp_path).read(1)
     assert kept.values["final_speed"] == records[2].values["final_speed"] > 0
     assert kept.units["final_speed"] == "m/s"
-    estimates = convergence_history(np.ones(2), np.ones(2, dtype=bool), StoppingRule(0.1, 0.1, 0.95, 10, 5), 1.0)
+    estimates = estimates_of(records[1:])
     built = dataset.build(ground, RecordStore(tmp_path).columns(2), records[0], estimates, {})
     np.testing.assert_array_equal(built.final_speed, [record.values["final_speed"] for record in records[1:]])
     assert built.final_speed.attrs["units"] == "m/s"
@@ -60,7 +67,7 @@ def test_what_is_too_large_for_each_realization_enters_as_its_average():
         for k, status in enumerate(statuses)
     ]
     ground = SimpleNamespace(**vars(GROUND) | {"quantities": QUANTITIES | {"left": LEFT}})
-    estimates = convergence_history(np.ones(6), np.ones(6, dtype=bool), StoppingRule(0.1, 0.1, 0.95, 10, 5), 1.0)
+    estimates = estimates_of(records)
     blocks = [columns_of(records[:2]), columns_of(records[2:])]
     built = dataset.build(ground, blocks, make_record(BASELINE), estimates, {})
     np.testing.assert_array_equal(built.leaving_probability, left[:5].mean(axis=0))
