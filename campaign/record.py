@@ -39,6 +39,9 @@ SLID = frozenset({Status.slid, Status.not_settled, Status.reached_wall})
 UNHINDERED = SLID - {Status.reached_wall}
 """Slides whose run-out is the slope's and not that of the model's walls."""
 
+LOWER_BOUND = SLID - {Status.slid}
+"""Slides that were still on their way, or were stopped by a wall: they may come farther than they did."""
+
 USABLE = SLID | {Status.no_slide}
 """With a result: a slope that does not slide has a run-out of zero."""
 

@@ -10,8 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
-from campaign.record import Status
+from campaign.record import LOWER_BOUND
 from campaign.statistics.intervals import Interval, Sample, quantile_interval, unknown
 from campaign.statistics.proportions import exact_interval
 
@@ -45,7 +46,7 @@ class ReceptorEstimate(NamedTuple):
     interval : Interval
     open_bounds : tuple of float
         Of a probability: what it would be if none, or all, of the realizations that leave it open had reached the
-        place, because they failed or were still on their way at the end; NaN for other numbers.
+        place, because they failed, were still moving at the end or were stopped by a wall; NaN for other numbers.
     """
 
     receptor: str
@@ -75,30 +76,32 @@ def receptor_estimates(data: xr.Dataset, confidence: float) -> list[ReceptorEsti
     ]
 
 
-def reach_probability(reaches: Sample, is_unsettled: Sample, confidence: float) -> tuple[Interval, tuple[float, float]]:
+def reach_probability(
+    reaches: Sample, may_go_on: NDArray[np.bool_], confidence: float
+) -> tuple[Interval, tuple[float, float]]:
     """Return the probability that something reaches a place, with its interval, and what the open realizations allow.
 
     Parameters
     ----------
     reaches : ndarray (n,)
         1 or 0 for each realization, NaN where it failed; these are left out.
-    is_unsettled : bool ndarray (n,)
-        Whether it was still moving at the end.
+    may_go_on : bool ndarray (n,)
+        Whether it was still moving at the end, or a wall had stopped it.
     confidence : float
         Of the interval, which is that of Clopper and Pearson (1934), Biometrika 26, 404-413.
     """
     failed = np.isnan(reaches)
     reached, n = int(np.nansum(reaches)), int(np.count_nonzero(~failed))
-    unknowns = int(np.count_nonzero(failed | (is_unsettled & (reaches == 0.0))))
+    unknowns = int(np.count_nonzero(failed | (may_go_on & (reaches == 0.0))))
     if n == 0:
         return unknown(math.nan, 0), (math.nan, math.nan)
     return exact_interval(reached, n, confidence), (reached / len(reaches), (reached + unknowns) / len(reaches))
 
 
 def _of_one(name: str, data: xr.Dataset, confidence: float) -> Iterator[ReceptorEstimate]:
-    is_unsettled = data["status"].values == int(Status.not_settled)
+    may_go_on = np.isin(data["status"].values, list(LOWER_BOUND))
     for variable, called in REACHED.items():
-        interval, bounds = reach_probability(data[variable].values, is_unsettled, confidence)
+        interval, bounds = reach_probability(data[variable].values, may_go_on, confidence)
         yield ReceptorEstimate(name, called, "1", interval, bounds)
     is_reached = data["front_reaches"].values == 1.0
     for variable, called in EFFECTS.items():

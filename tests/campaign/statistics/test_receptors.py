@@ -41,8 +41,8 @@ def test_nothing_in_forty_has_an_upper_bound():
 def test_failures_are_left_out_and_bounded_and_so_is_what_still_moves():
     """Of ten, two reach, one failed, and one that has not reached it still moves: 2 of 9, and 2 to 4 of 10."""
     reaches = np.array([1.0, 1.0, np.nan, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
-    is_unsettled = np.array([True, False, False, True, *[False] * 6])
-    interval, bounds = reach_probability(reaches, is_unsettled, CONFIDENCE)
+    may_go_on = np.array([True, False, False, True, *[False] * 6])
+    interval, bounds = reach_probability(reaches, may_go_on, CONFIDENCE)
     assert (interval.estimate, interval.n) == (2 / 9, 9)
     assert bounds == (0.2, 0.4)
 
@@ -79,3 +79,11 @@ def test_a_place_that_nothing_reaches_has_probabilities_alone():
 
 def test_without_receptors_there_is_nothing_to_say():
     assert receptor_estimates(xr.Dataset({"runout": ("time", [0.0])}), CONFIDENCE) == []
+
+
+def test_what_a_wall_has_stopped_is_bounded():
+    """Of four slides one reaches the place, and one that a wall has stopped before it might have: 1 to 2 of 4."""
+    statuses = [Status.slid, Status.slid, Status.reached_wall, Status.slid]
+    reaches = [1.0, 0.0, 0.0, 0.0]
+    first = receptor_estimates(dataset(reaches, reaches, statuses, [1.0, 0.0, 0.0, 0.0]), CONFIDENCE)[0]
+    assert first.open_bounds == (1 / 4, 2 / 4)
