@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from dataclasses import replace
 
 import h5py
 import numpy as np
@@ -14,6 +15,12 @@ ORDER = (
     *("runout", "max_displacement", "kinetic_energy", "final_runout", "final_runout_mass", "sliding_volume"),
     *("detached_volume", "settle_time", "energy_error", "wall_time", "steps", "deposit_surface", "displaced"),
 )
+
+
+def kept(record):
+    """Return a record with no more than what version 0.1.0 kept of it."""
+    values = {name: value for name, value in record.values.items() if name in ORDER}
+    return replace(record, values=values, units={name: record.units[name] for name in values})
 
 
 def write_manifest(directory, scene):

@@ -44,5 +44,6 @@ def make_record(realization: int, status: Status = Status.slid, reason: str = ""
 def assert_same(one: Record, other: Record) -> None:
     assert (one.realization, one.status, one.reason) == (other.realization, other.status, other.reason)
     assert one.units == other.units
-    for name in QUANTITIES:
+    assert one.values.keys() == other.values.keys()
+    for name in one.values:
         np.testing.assert_array_equal(one.values[name], other.values[name], err_msg=name, strict=True)
