@@ -23,7 +23,7 @@ HALF_CELL_COST = 8
 PARTICLE_BYTES = 1000
 """Of memory a particle takes while a realization runs: 750 measured with the grid under it, and room for records."""
 
-SERIES, RECEPTOR_SERIES = 3, 1
+SERIES, RECEPTOR_SERIES = 6, 1
 """Numbers of a record that there are at every time, and those of a receptor, in double precision."""
 
 SUMMARY_BYTES = 2000
