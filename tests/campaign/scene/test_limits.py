@@ -35,7 +35,7 @@ def test_the_built_in_scenes_run_on_a_laptop():
             "but the ground of 1e+09 m x 19 m then has 1.6e+10 particles in cells of 1 m",
         ),
         ("numerics.output_interval=1e-9 s", 'is "1e-9 s", but with 1e+10 output times the results of 1,000'),
-        ("campaign.realizations=100000000", "and this machine has 16 GB; use at most 1,"),
+        ("campaign.realizations=100000000", "and this machine has 16 GB; use at most 776,"),
         ("soil.softening.internal_length=1e14 m", "but the ground is 75 m wide; use the thickness of a shear band"),
         ("numerics.flip=0.9", "ends as diverged, so that no slide would count; use 1."),
     ],
