@@ -34,6 +34,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except CampaignError as refusal:
         print(refusal, file=sys.stderr)
         return ExitCode.REFUSED
+    except BrokenPipeError:  # whoever read the output, such as `head`, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return ExitCode.DONE
     return code
 
 

@@ -93,6 +93,8 @@ class Record:
         By the name of the quantity. A record that was kept by another version may lack some and hold others.
     units
         Of the values, by the same names.
+    scene
+        SHA-256 of the scene whose realization it is, seed and cell included; "" where it does not say.
     """
 
     realization: int
@@ -100,6 +102,7 @@ class Record:
     reason: str
     values: Mapping[str, Value]
     units: Mapping[str, str] = field(default_factory=dict)
+    scene: str = ""
 
 
 class RealizationSummary(NamedTuple):

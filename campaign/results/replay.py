@@ -120,7 +120,7 @@ def _equal(one: Any, other: Any) -> bool:
 
 def _recorded(directory: Path, realization: int) -> Record | None:
     try:
-        return RecordStore(directory).read(realization)
+        return RecordStore(directory, manifest.read(directory)["digest"]).read(realization)
     except (KeyError, DamagedRecordError):
         return None
 

@@ -18,6 +18,7 @@ class Order(NamedTuple):
 
     ground: PreparedGround
     directory: Path  # of the records
+    scene: str  # SHA-256 of the one that the records belong to
     timeout: float  # s, of a realization
     job_end: float  # s since the epoch
 
@@ -57,7 +58,8 @@ class Alone:
 def worker_of(order: Order, rank: int, stop: StopRequest, aside: Callable[[], None]) -> Worker:
     """Return a rank's worker for an order; `aside` is called from within its time loop."""
     interrupt = Interrupt(stop, order.job_end, order.timeout, aside)
-    return Worker(order.ground, RecordStore(order.directory), Attempts(order.directory), rank, interrupt)
+    store = RecordStore(order.directory, order.scene)
+    return Worker(order.ground, store, Attempts(order.directory), rank, interrupt)
 
 
 def work(worker: Worker, realization: int | None, exchange: Callable[[RankReport], int | None]) -> None:

@@ -19,7 +19,7 @@ class Level:
     def __init__(self, scene: Scene, directory: Path) -> None:
         self.scene = scene
         self.directory = directory
-        self.store = RecordStore(directory)
+        self.store = RecordStore(directory, scene.digest())
         self._attempts = Attempts(directory)
 
     def open(self) -> list[str]:

@@ -108,7 +108,8 @@ def conduct(
     directory.announce(crew.size, tally)
 
     def hand_out(level: Level, ground: PreparedGround, tally: Tally) -> str:
-        order = Order(ground, level.directory, level.scene.campaign.realization_timeout, end)
+        wanted = level.scene
+        order = Order(ground, level.directory, wanted.digest(), wanted.campaign.realization_timeout, end)
         dispatcher, progress = Dispatcher(tally, _obstacle(stop, end), level.tidier(tally)), Progress(tally)
         crew.compute(order, dispatcher, lambda: dispatcher.observe(progress.tick))
         return dispatcher.stopped

@@ -56,7 +56,7 @@ def _state(directory: Path, about: dict[str, Any]) -> str:
 def _tally(directory: Path, about: dict[str, Any]) -> tuple[Tally, list[str]]:
     """Return the account of the records on disk, and a sentence for each file that cannot be read."""
     tally = tally_for(Campaign.model_construct(**about["campaign"]), about.get("front", Slide().front))
-    summaries, damaged = RecordStore(directory).summaries()
+    summaries, damaged = RecordStore(directory, about["digest"]).summaries()
     for summary in summaries.values():
         tally.add(summary)
     return tally, damaged

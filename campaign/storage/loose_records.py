@@ -1,5 +1,6 @@
 """The records that have a file of their own."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from campaign.errors import DamagedRecordError
@@ -13,10 +14,18 @@ class LooseRecords:
     """The files `records/realization-000123.h5` and `records/baseline.h5` of a results directory.
 
     A record that was read and verified is kept in memory as long as it is loose.
+
+    Parameters
+    ----------
+    directory
+        Of the results.
+    scene
+        SHA-256 of the scene that the records belong to; one that says it belongs to another is damaged. "" takes all.
     """
 
-    def __init__(self, directory: Path) -> None:
+    def __init__(self, directory: Path, scene: str = "") -> None:
         self.directory = directory / RECORDS
+        self._scene = scene
         self._verified: dict[int, Record] = {}
         self._summaries: dict[int, RealizationSummary] = {}
 
@@ -31,7 +40,7 @@ class LooseRecords:
 
     def write(self, record: Record) -> None:
         """Keep a record for good; raises OSError, leaving no trace, when the disk is full or not writable."""
-        write_atomically(self.path(record.realization), to_bytes(record))
+        write_atomically(self.path(record.realization), to_bytes(replace(record, scene=self._scene)))
 
     def read(self, realization: int) -> Record:
         """Return a record; its file is read once.
@@ -41,13 +50,13 @@ class LooseRecords:
         FileNotFoundError
             When there is none.
         DamagedRecordError
-            When its file is truncated or altered, or holds another realization.
+            When its file is truncated or altered, or holds another realization or that of another scene.
         RefusalError
             When only a newer version of the program can read it.
         """
         if realization not in self._verified:
             path = self.path(realization)
-            self._verified[realization] = _of(realization, from_bytes(path.read_bytes(), str(path)), path)
+            self._verified[realization] = self._own(realization, from_bytes(path.read_bytes(), str(path)), path)
         return self._verified[realization]
 
     def summary(self, realization: int) -> RealizationSummary:
@@ -56,7 +65,7 @@ class LooseRecords:
             return summarize(self._verified[realization])
         if realization not in self._summaries:
             path = self.path(realization)
-            record = _of(realization, summarized_from_bytes(path.read_bytes(), str(path)), path)
+            record = self._own(realization, summarized_from_bytes(path.read_bytes(), str(path)), path)
             self._summaries[realization] = summarize(record)
         return self._summaries[realization]
 
@@ -74,8 +83,10 @@ class LooseRecords:
             return f"{error} It is set aside as {aside.name}, and realization {realization} is run again."
         return ""
 
-
-def _of(realization: int, record: Record, path: Path) -> Record:
-    if record.realization != realization:
-        raise DamagedRecordError(f"The record in {path} is that of realization {record.realization}.")
-    return record
+    def _own(self, realization: int, record: Record, path: Path) -> Record:
+        """Return a record if it is what its name and its directory say; raises DamagedRecordError if not."""
+        if record.realization != realization:
+            raise DamagedRecordError(f"The record in {path} is that of realization {record.realization}.")
+        if self._scene and record.scene and record.scene != self._scene:
+            raise DamagedRecordError(f"The record in {path} belongs to another scene, seed or cell.")
+        return record

@@ -25,6 +25,7 @@ def to_bytes(record: Record) -> bytes:
         file.attrs["realization"] = record.realization
         file.attrs["status"] = int(record.status)
         file.attrs["reason"] = record.reason
+        file.attrs["scene"] = record.scene
     return sealed(buffer.getvalue())
 
 
@@ -70,7 +71,8 @@ def _record(file: h5py.File, names: Collection[str]) -> Record:
     about = file.attrs
     values: dict[str, Value] = {name: plain(file[name][()]) for name in names}
     status, units = Status(int(about["status"])), read_units(file, names)
-    return Record(int(about["realization"]), status, str(about["reason"]), values, units)
+    scene = str(about.get("scene", ""))
+    return Record(int(about["realization"]), status, str(about["reason"]), values, units, scene)
 
 
 def write_values(group: h5py.Group, name: str, values: Any, units: Mapping[str, str], **how: Any) -> None:

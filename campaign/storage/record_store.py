@@ -21,11 +21,11 @@ class RecordStore:
     """The finished realizations of the campaign in `directory`.
 
     `recover` reads each record once. What the campaign asks for next is then in memory: a summary of each, and the
-    whole record where it is not packed.
+    whole record where it is not packed. `scene` is the SHA-256 of the scene that the records belong to, "" for any.
     """
 
-    def __init__(self, directory: Path) -> None:
-        self.loose = LooseRecords(directory)
+    def __init__(self, directory: Path, scene: str = "") -> None:
+        self.loose = LooseRecords(directory, scene)
         self.packs = Packs(directory)
         self.records = self.loose.directory
 

@@ -96,3 +96,10 @@ def test_neither_mpi_nor_numpy_is_needed_to_read_the_command_line():
     slow = {"mpi4py", "numpy", "pydantic", "matplotlib", "shtab"}
     program = f"import sys, campaign.cli as cli; cli.parser(); sys.exit(bool({slow} & set(sys.modules)))"
     assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
+
+
+def test_a_reader_who_has_seen_enough_ends_a_command_quietly():
+    program = "import sys; from campaign.cli import main; sys.exit(main(['scenes']))"
+    command = f'{sys.executable} -u -c "{program}" | true; exit ${{PIPESTATUS[0]}}'
+    result = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert (result.returncode, result.stderr) == (0, "")

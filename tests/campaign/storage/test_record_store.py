@@ -188,3 +188,15 @@ def test_a_flipped_bit_anywhere_is_noticed_before_the_library_reads_on(store, pl
     else:
         with pytest.raises(DamagedRecordError):
             store.read(0)
+
+
+@pytest.mark.parametrize(("owner", "is_run_again"), [("a" * 64, False), ("b" * 64, True), ("", False)])
+def test_a_record_of_another_scene_is_set_aside_and_its_id_is_run_again(tmp_path, owner, is_run_again):
+    """One that does not say whose it is, as older ones do not, is taken."""
+    theirs = RecordStore(tmp_path, owner)
+    theirs.create()
+    theirs.write(make_record(3))
+    ours = RecordStore(tmp_path, "a" * 64)
+    sentences = ours.recover()
+    assert ours.finished() == (set() if is_run_again else {3})
+    assert ["belongs to another scene, seed or cell" in each for each in sentences] == [True] * is_run_again
