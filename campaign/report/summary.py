@@ -5,6 +5,8 @@ from textwrap import fill
 from campaign.report.answer import answer, reasons_for_doubt
 from campaign.report.error_budget import Row, error_budget, modelling_choices
 from campaign.results.results import Results
+from campaign.statistics.receptors import receptor_estimates
+from campaign.statistics.wording import chance, chances
 
 WIDTH = 110
 
@@ -16,12 +18,23 @@ def summary(results: Results) -> str:
         [
             *(fill(sentence, WIDTH) for sentence in (answer(results), *reasons_for_doubt(results))),
             f"Of {results.realizations} realizations: {counts}.",
+            *_places(results),
             f"Error budget at {100 * results.confidence:g} % confidence",
             *(f"  {row.source:16}{_words(row)}" for row in error_budget(results)),
             "What the answer rests on",
             *(f"  {name:20}{choice}" for name, choice in modelling_choices(results.scene).items()),
         ]
     )
+
+
+def _places(results: Results) -> list[str]:
+    """Return a line for each probability that a slide reaches a receptor, below a heading; nothing without any."""
+    probabilities = [each for each in receptor_estimates(results.data, results.confidence) if each.unit == "1"]
+    heading = ["At the places asked about"] if probabilities else []
+    return heading + [
+        f"  {each.receptor:16}{each.quantity}: {chance(each.interval.estimate)} ({chances(each.interval)})"
+        for each in probabilities
+    ]
 
 
 def _words(row: Row) -> str:

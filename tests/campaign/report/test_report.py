@@ -282,3 +282,13 @@ def test_without_a_simulation_the_other_figures_are_drawn(campaign, monkeypatch)
 def test_without_results_there_is_no_page(tmp_path):
     with pytest.raises(RefusalError, match=r"holds no results\.nc"):
         write_report(tmp_path)
+
+
+def test_the_terminal_tells_the_probability_that_a_slide_reaches_a_place(tmp_path):
+    scene = small_scene('receptor=[{name="road",x="42 m"}]', "campaign.realizations=3", "numerics.end_time=1 s")
+    run(tmp_path, scene)
+    results = read_results(tmp_path)
+    reached = int(results.data.front_reaches.sum())
+    assert f"road            probability that the slide's front reaches it: {100 * reached / 3:.0f} % (" in summary(
+        results
+    )
