@@ -81,12 +81,10 @@ def test_no_import_runs_in_a_circle():
 
 ROOMS = (
     "solver",
-    "campaign.errors campaign.exit_codes campaign.record campaign.seeds campaign.terminal",
-    "campaign.fields.correlation campaign.fields.marginals "
-    "campaign.fields.cross_correlation campaign.fields.properties",
+    "campaign.errors campaign.exit_codes campaign.files campaign.record campaign.seeds campaign.terminal",
+    "campaign.fields",
     "campaign.scene",
     "campaign.storage",
-    "campaign.fields",
     "campaign.simulation",
     "campaign.statistics",
     "campaign.results",

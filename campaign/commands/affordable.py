@@ -17,7 +17,7 @@ def refuse_unaffordable(scene: Scene) -> None:
     """
     complaints = refusals(scene, memory())
     if not complaints:
-        from campaign.fields.field_size import field_size, too_large
+        from campaign.simulation.field_size import field_size, too_large
 
         complaints = [complaint] if (complaint := too_large(field_size(scene))) else []
     if complaints:

@@ -2,7 +2,6 @@
 
 from textwrap import fill
 
-from campaign.fields.field_size import FieldSize
 from campaign.scene import Scene
 from campaign.scene.cost import (
     core_seconds,
@@ -18,6 +17,7 @@ from campaign.scene.cost import (
 from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, FirstLook
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.outlook import outlook
+from campaign.simulation.field_size import FieldSize
 from campaign.terminal import data_size, duration
 
 WIDTH = 100

@@ -23,10 +23,10 @@ def carry_out(options: argparse.Namespace) -> ExitCode:
     """
     from campaign.commands.affordable import refuse_unaffordable
     from campaign.commands.first_look_text import first_look_text
-    from campaign.fields.field_size import field_size, perhaps_too_large
     from campaign.scene.complaints import sentences
     from campaign.scene.first_look import look_at
     from campaign.scene.foresight import warnings
+    from campaign.simulation.field_size import field_size, perhaps_too_large
 
     scene = read_scene(options)
     refuse_unaffordable(scene)

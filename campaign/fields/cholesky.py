@@ -15,7 +15,7 @@ from scipy import linalg
 from campaign.errors import SamplerError
 from campaign.fields.correlation import Array, Correlation
 from campaign.fields.samplers import refuse_large
-from campaign.storage.files import publish, temporary_name, write_atomically
+from campaign.files import publish, temporary_name, write_atomically
 from solver._jit import exact
 
 FACTOR_FILE = "field_factor.npy"

@@ -10,6 +10,7 @@ import jinja2
 import numpy as np
 
 from campaign.errors import RefusalError
+from campaign.files import write_atomically
 from campaign.report.answer import answer, outcomes, reasons_for_doubt
 from campaign.report.error_budget import error_budget, modelling_choices
 from campaign.report.figures import distribution, ground, precision, slides
@@ -20,7 +21,6 @@ from campaign.results.results import Results, read_results
 from campaign.seeds import BASELINE
 from campaign.simulation.ground import Ground, prepare
 from campaign.storage.access import check_digest
-from campaign.storage.files import write_atomically
 from campaign.storage.layout import FIGURES, REPORT
 
 TIMES = (0.0, 3.0, 5.0)

@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from campaign.files import publish, temporary_name
 from campaign.record import FINAL_RUNOUT, SLID, USABLE, Quantity, Record, Status, missing_values
 from campaign.results.estimates import of_discretisation, of_history, of_release, of_total
 from campaign.results.table import Table, gather
@@ -21,7 +22,6 @@ from campaign.statistics.convergence import ConvergenceHistory
 from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.release import ReleaseComparison
 from campaign.storage.columns import Columns
-from campaign.storage.files import publish, temporary_name
 
 CHUNK = 64
 """Realizations in a chunk; the library's own choice for an unlimited dimension is 1, thirty times slower to read."""

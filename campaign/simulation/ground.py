@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from campaign.errors import RefusalError
 from campaign.fields.properties import PROPERTIES, SoilProperty, raised_to_floor, random_properties
-from campaign.fields.scene_sampler import strength_sampler
 from campaign.fields.strengths import Strengths, StrengthSampler
 from campaign.record import Quantity, Record, with_dims
 from campaign.scene.ground_surface import surface_of
@@ -21,6 +20,7 @@ from campaign.simulation.contract import TEXT, sizes
 from campaign.simulation.field_summary import BoxMap, box_map
 from campaign.simulation.quantities import QUANTITIES
 from campaign.simulation.realization import never, nothing, simulate
+from campaign.simulation.scene_sampler import strength_sampler
 from campaign.simulation.solver_model import Array, column_edges, model_of, output_times
 from solver.filling import ground_of
 from solver.in_situ import NotSettledError, in_situ_state

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from campaign.storage.files import write_atomically
+from campaign.files import write_atomically
 from campaign.storage.layout import ATTEMPTS, CRASHES, EVERY_ATTEMPT, attempt_file
 
 PATIENCE = 2

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TypedDict
 
 from campaign.errors import RefusalError
-from campaign.storage.files import temporary_name
+from campaign.files import temporary_name
 from campaign.storage.layout import LOCK
 
 HEARTBEAT = 20.0

@@ -4,8 +4,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from campaign.errors import DamagedRecordError
+from campaign.files import set_aside, write_atomically
 from campaign.record import RealizationSummary, Record, summarize
-from campaign.storage.files import set_aside, write_atomically
 from campaign.storage.layout import RECORDS, realization_file, realization_of
 from campaign.storage.record_format import from_bytes, summarized_from_bytes, to_bytes
 

@@ -5,9 +5,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from campaign.errors import RefusalError
+from campaign.files import write_atomically
 from campaign.scene import Scene
 from campaign.storage.access import Access, Manifest, judge
-from campaign.storage.files import write_atomically
 from campaign.storage.formats import FORMAT, READER
 from campaign.storage.layout import MANIFEST
 from campaign.storage.provenance import git_describe, library_versions, machine, source_hashes

@@ -3,10 +3,10 @@
 from pathlib import Path
 
 from campaign.errors import DamagedRecordError
+from campaign.files import set_aside, write_atomically
 from campaign.record import RealizationSummary, Record
 from campaign.storage import pack_format
 from campaign.storage.columns import Columns
-from campaign.storage.files import set_aside, write_atomically
 from campaign.storage.layout import PACKS, pack_file, pack_of
 
 

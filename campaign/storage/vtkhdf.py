@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from campaign.storage.files import publish, temporary_name
+from campaign.files import publish, temporary_name
 
 Array = NDArray[np.float64]
 

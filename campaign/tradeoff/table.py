@@ -9,10 +9,10 @@ import numpy as np
 import xarray as xr
 
 from campaign.errors import RefusalError
+from campaign.files import write_atomically
 from campaign.results import dataset
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
-from campaign.storage.files import write_atomically
 from campaign.terminal import say
 from campaign.tradeoff.trials import Tradeoff, Trial, compare
 

@@ -4,9 +4,9 @@ from math import log, radians, sqrt
 
 import numpy as np
 
-from campaign.fields.scene_sampler import strength_sampler
 from campaign.scene.scene import Scene
 from campaign.scene.sections import Cohesion, FrictionAngle, RandomField, Soil
+from campaign.simulation.scene_sampler import strength_sampler
 
 COHESION = Cohesion.model_construct(mean=20e3, cov=0.3, residual=10e3)
 FRICTION = FrictionAngle.model_construct(mean=radians(20.0), cov=0.2, residual=radians(12.0))

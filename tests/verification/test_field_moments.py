@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from driver import Row
 
-from campaign.fields.scene_sampler import strength_sampler
 from campaign.scene.scene import Scene
 from campaign.scene.sections import Cohesion, FrictionAngle, RandomField, Soil
+from campaign.simulation.scene_sampler import strength_sampler
 
 COHESION = Cohesion.model_construct(mean=20e3, cov=0.1)
 FRICTION = FrictionAngle.model_construct(mean=np.radians(10.0), cov=0.1)

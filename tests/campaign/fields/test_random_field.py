@@ -11,9 +11,9 @@ from soil_fields import COHESION, FRICTION, assert_mean, box_scene, draws, small
 from campaign.errors import SamplerError
 from campaign.fields.marginals import Lognormal, gaussian_cross_correlation
 from campaign.fields.reference_grid import ReferenceGrid
-from campaign.fields.scene_sampler import strength_sampler
 from campaign.scene.sections import FrictionAngle
 from campaign.seeds import BASELINE
+from campaign.simulation.scene_sampler import strength_sampler
 
 GOLDEN = [26234.497928, 18832.865449, 19053.353441]
 

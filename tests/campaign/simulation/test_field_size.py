@@ -3,10 +3,10 @@
 import pytest
 
 from campaign.fields.correlation import Correlation
-from campaign.fields.field_size import circulant_bytes, field_size, perhaps_too_large, too_large
 from campaign.fields.reference_grid import ReferenceGrid
 from campaign.fields.samplers import CirculantSampler
 from campaign.scene import load_scene
+from campaign.simulation.field_size import circulant_bytes, field_size, perhaps_too_large, too_large
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.3])

@@ -5,10 +5,10 @@ from typing import NamedTuple
 from campaign.fields.correlation import Correlation
 from campaign.fields.reference_grid import ReferenceGrid
 from campaign.fields.samplers import MEMORY_LIMIT
-from campaign.fields.scene_sampler import AUTOMATIC, CELLS_PER_DISTANCE, correlation_of
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint
 from campaign.scene.ground_surface import surface_of
+from campaign.simulation.scene_sampler import AUTOMATIC, CELLS_PER_DISTANCE, correlation_of
 from campaign.terminal import data_size
 
 PERIODS = {"exponential": (3.5, 20.0), "squared-exponential": (9.5, 12.0), "turned": (9.5, 20.0)}
