@@ -45,10 +45,10 @@ def stretch_flagged(basis, length=12.0):
     x, y = lattice(length, 2.0, 0.5)
     strip = allocate_particles(x, y + 2.0, 0.25, 1.0)
     strip.velocity_x[:] = x
-    start, level = copy_particles(strip), Surface(np.array([0.0, 7.0 * length]), np.zeros(2))
+    start, level = copy_particles(strip), Surface(np.array([0.0, 7.0 * length]), np.zeros(2), toe_x=7.0 * length)
     grid, work = grid_without_walls(7.0 * length, 6.0, 1.0, BASES[basis]), allocate_workspace(x.size)
     stretch, step = 1.0, 0.01
-    while detached_volume(strip, start, level, grid) == 0.0:
+    while detached_volume(strip, start, level, grid) == 0.0 and stretch < STRETCHES[-1]:
         advance(strip, grid, work, (elastic_soil(1e-9, 0.0),), MUSL, 0.0, 0.0, step, 1)
         stretch += step
     return stretch
