@@ -3,10 +3,12 @@
 import tomllib
 from math import pi, sqrt
 
+import numpy as np
 import pytest
 
 from campaign.scene import builtin_scenes, load_scene
 from campaign.scene.scene import flatten
+from campaign.simulation.scene_sampler import correlation_of
 
 
 def test_ma2023_has_the_numbers_of_the_paper_in_si() -> None:
@@ -39,7 +41,7 @@ def test_ma2023_printed_has_the_particle_count_of_the_paper() -> None:
     assert foundation + above == 10_090
 
 
-def test_the_scene_as_printed_differs_only_in_plain_and_method() -> None:
+def test_the_scene_as_printed_differs_only_in_plain_method_and_field() -> None:
     ours, printed = (load_scene(name).identity() for name in ("ma2023", "ma2023-printed"))
     assert {key for key, _ in ours.items() ^ printed.items()} == {
         "geometry.slope.plain",
@@ -48,7 +50,20 @@ def test_the_scene_as_printed_differs_only_in_plain_and_method() -> None:
         "soil.softening.rate",
         "soil.softening.reference_cell",
         "soil.softening.internal_length",
+        "field.horizontal",
+        "field.length_kind",
     }
+
+
+def test_the_field_as_printed_is_that_of_equations_1_and_2() -> None:
+    """Isotropic, exp(-tau / theta) with a theta of four field cells, 1 m."""
+    scene = load_scene("ma2023-printed")
+    correlation = correlation_of(scene.field)
+    lag = np.array([0.0, 0.5, 1.0, 3.0])
+    none = np.zeros_like(lag)
+    np.testing.assert_allclose(correlation(lag, none), np.exp(-lag))
+    np.testing.assert_allclose(correlation(none, lag), np.exp(-lag))
+    assert 4.0 * scene.field.resolution == 1.0
 
 
 @pytest.mark.parametrize("name", builtin_scenes())
