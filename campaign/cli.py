@@ -20,7 +20,7 @@ DESCRIPTION = """\
 How far will this slope run, and how sure are we? Without a command, "campaign" computes the built-in scene ma2023
 ("campaign run ma2023"), which takes minutes."""
 
-COMMANDS = ("run", "new", "validate", "draw", "status", "report", "replay", "tradeoff", "scenes")
+COMMANDS = ("run", "new", "validate", "draw", "status", "report", "replay", "compare", "tradeoff", "scenes")
 """Modules of `campaign.commands`, in the order of the help."""
 
 

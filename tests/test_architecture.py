@@ -88,6 +88,7 @@ ROOMS = (
     "campaign.simulation",
     "campaign.statistics",
     "campaign.results",
+    "campaign.comparison",
     "campaign.report",
     "campaign.running",
     "campaign.tradeoff",

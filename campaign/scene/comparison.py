@@ -17,10 +17,18 @@ ABSENT = "absent"
 def differences(here: Mapping[str, Any], there: Mapping[str, Any]) -> list[str]:
     """Say, key by key, how two identities differ; `there` is the one in the results directory."""
     return [
-        "{} is {} here but {} in the results directory".format(key, *_texts(key, here.get(key), there.get(key)))
+        f"{key} is {one} here but {other} in the results directory"
+        for key, (one, other) in differing_values(here, there).items()
+    ]
+
+
+def differing_values(here: Mapping[str, Any], there: Mapping[str, Any]) -> dict[str, tuple[str, str]]:
+    """Return both values, as people write them, of each key in which two identities differ."""
+    return {
+        key: _texts(key, here.get(key), there.get(key))
         for key in sorted(here.keys() | there.keys())
         if here.get(key) != there.get(key)
-    ]
+    }
 
 
 def kind_of(key: str) -> Kind | None:

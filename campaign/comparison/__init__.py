@@ -1,0 +1,1 @@
+"""Campaigns beside each other: realizations that all of them have, and what differs from the first campaign."""

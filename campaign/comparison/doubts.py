@@ -1,0 +1,90 @@
+"""What a reader of a comparison has to know: when pairs have less in common than they seem to, and what is a bound."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from campaign.comparison.scenarios import Comparison
+from campaign.record import FAILED, LOWER_BOUND
+from campaign.results.results import Results
+from campaign.simulation.field_size import field_size
+
+FIELD = "field."
+CRITERIA = ("slide.displaced", "slide.failed", "slide.front_area")
+"""Keys that decide what is counted and not what happens."""
+
+
+def doubts(given: Comparison) -> list[str]:
+    """Return what has to be said of a comparison, a sentence each."""
+    others = range(1, len(given.names))
+    return [
+        *_left_out(given),
+        *(sentence for other in others for sentence in _of_pairs(given, other)),
+        *(sentence for scenario in range(len(given.names)) for sentence in _of_runouts(given, scenario)),
+        *_receptors(given),
+    ]
+
+
+def _left_out(given: Comparison) -> Iterator[str]:
+    counts = [each.realizations for each in given.scenarios]
+    if len(set(counts)) > 1:
+        told = ", ".join(f"{n} in {name}" for name, n in zip(given.names, counts, strict=True))
+        yield f"Of {told}, only the realizations that all have are compared."
+    failed = [int(np.count_nonzero(each.has_status(FAILED))) for each in given.scenarios]
+    if any(failed):
+        told = ", ".join(f"{n} in {name}" for name, n in zip(given.names, failed, strict=True))
+        yield f"Realizations that failed in any campaign are left out of all ({told})."
+
+
+def _of_pairs(given: Comparison, other: int) -> Iterator[str]:
+    (first, here), name = (given.names[0], given.scenarios[0]), given.names[other]
+    there = given.scenarios[other]
+    keys = [change.key for change in given.changes(other)]
+    if here.scene.campaign.seed != there.scene.campaign.seed:
+        yield (
+            f"{name} has another seed than {first}, so their realizations have nothing in common: the differences "
+            "hold, but are known no better than from independent campaigns. With the same seed they would be."
+        )
+    elif reason := _other_field(here, there, keys):
+        yield (
+            f"The random fields of {name} are not those of {first} ({reason}), so that pairs have less in common, or "
+            "nothing: the standard errors show what pairing is worth."
+        )
+    if here.front != there.front:
+        yield f"{name} reports the front of the {there.front}; here the run-out of all is that of the {here.front}."
+    if here.scene.numerics.cell != there.scene.numerics.cell:
+        yield f"The cells of {name} are not those of {first}, so the differences hold what the mesh changes as well."
+    if here.data.attrs["realization_sha256"] != there.data.attrs["realization_sha256"]:
+        yield (
+            f"{name} was computed by another version of the solver than {first}, so the differences hold what that "
+            "changed as well."
+        )
+    if counted := [key for key in keys if key in CRITERIA]:
+        yield f"{', '.join(counted)} differ between {name} and {first}: what counts as a slide is not the same."
+
+
+def _other_field(here: Results, there: Results, keys: list[str]) -> str:
+    """Return why two scenes of the same seed draw different Gaussian fields, "" if they draw the same."""
+    if changed := [key for key in keys if key.startswith(FIELD)]:
+        return ", ".join(changed)
+    one, two = field_size(here.scene), field_size(there.scene)
+    if (one.shape, one.resolution) != (two.shape, two.resolution):
+        return "the ground is of another width or height"
+    return ""
+
+
+def _of_runouts(given: Comparison, scenario: int) -> Iterator[str]:
+    results, name = given.scenarios[scenario], given.names[scenario]
+    if results.data.attrs["solver_drift"] == "true":
+        yield f"The realizations of {name} were computed by several versions of the solver."
+    if bounds := int(np.count_nonzero(results.has_status(LOWER_BOUND)[given.ids])):
+        yield (
+            f"In {name} a wall or the end of the run stopped {bounds} of the {len(given.ids)} realizations: there the "
+            "run-out is a lower bound, and the difference is biased."
+        )
+
+
+def _receptors(given: Comparison) -> Iterator[str]:
+    named = [receptor.name for each in given.scenarios for receptor in each.scene.receptor]
+    if missing := [name for name in dict.fromkeys(named) if name not in given.receptors]:
+        yield f"Left out are receptors that are not in all campaigns: {', '.join(missing)}."

@@ -1,0 +1,132 @@
+"""Several campaigns, and the realizations that count in all of them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from campaign.errors import RefusalError
+from campaign.record import FINAL_RUNOUT, USABLE, Front
+from campaign.results.results import Results, read_results
+from campaign.scene.comparison import differing_values
+from campaign.statistics.intervals import Sample
+from campaign.statistics.receptors import REACHED
+
+
+class Change(NamedTuple):
+    """A key in which the scene of a campaign differs from that of the first one, with both values as people write them.
+
+    Attributes
+    ----------
+    key, first, other : str
+    """
+
+    key: str
+    first: str
+    other: str
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Campaigns with the realizations that have a result in all of them; the first is what the others are held against.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Of the scenarios: their directories.
+    scenarios : tuple of Results
+    ids : int array (realization,)
+        Realizations that have a result in every scenario.
+    """
+
+    names: tuple[str, ...]
+    scenarios: tuple[Results, ...]
+    ids: NDArray[np.int64]
+
+    @property
+    def front(self) -> Front:
+        """The front whose run-out is compared: that of the first campaign's statistics."""
+        return self.scenarios[0].front
+
+    @property
+    def confidence(self) -> float:
+        """Of every interval: that of the first campaign."""
+        return self.scenarios[0].confidence
+
+    @property
+    def receptors(self) -> tuple[str, ...]:
+        """Names of the receptors that all campaigns have, in the order of the first."""
+        named = [_receptors(each) for each in self.scenarios]
+        return tuple(name for name in named[0] if all(name in others for others in named))
+
+    def has_slid(self, scenario: int) -> NDArray[np.bool_]:
+        """Whether each realization slid, (realization,)."""
+        return self.scenarios[scenario].has_slid[self.ids]
+
+    def runouts(self, scenario: int) -> Sample:
+        """Return final run-outs in m, zero without a slide, (realization,)."""
+        return self._of_slides(scenario, FINAL_RUNOUT[self.front])
+
+    def volumes(self, scenario: int) -> Sample:
+        """Return sliding volumes in m3/m, zero without a slide, (realization,)."""
+        return self._of_slides(scenario, "sliding_volume")
+
+    def reaches(self, scenario: int, what: str, receptor: str) -> NDArray[np.bool_]:
+        """Whether something, a name in `REACHED`, reaches a receptor in each realization, (realization,)."""
+        data = self.scenarios[scenario].data
+        reached = data[what].values[self.ids, _receptors(self.scenarios[scenario]).index(receptor)]
+        return np.asarray(reached == 1.0)
+
+    def changes(self, scenario: int) -> list[Change]:
+        """Return the keys in which the scene of a scenario differs from the first one's."""
+        first, other = (self.scenarios[number].scene.identity() for number in (0, scenario))
+        return [Change(key, *texts) for key, texts in differing_values(first, other).items()]
+
+    def _of_slides(self, scenario: int, quantity: str) -> Sample:
+        values = self.scenarios[scenario].data[quantity].values[self.ids]
+        return np.where(self.has_slid(scenario), values, 0.0)
+
+
+def compare(directories: Sequence[Path]) -> Comparison:
+    """Read campaigns and find the realizations that all of them have; the first one is the reference.
+
+    Raises
+    ------
+    RefusalError
+        When there are fewer than two, one is given twice or has no results, or no realization has a result in all.
+    """
+    places = [directory.resolve() for directory in directories]
+    if len(places) < 2:
+        raise RefusalError("One campaign alone has nothing to be compared with; give two or more directories.")
+    if twice := [str(given) for given, place in zip(directories, places, strict=True) if places.count(place) > 1]:
+        raise RefusalError(f"{twice[0]} is given more than once; give each campaign once.")
+    scenarios = tuple(read_results(directory) for directory in directories)
+    counted = [set(np.flatnonzero(each.has_status(USABLE)).tolist()) for each in scenarios]
+    common = sorted(set.intersection(*counted))
+    if not common:
+        raise RefusalError(
+            "There is no realization that has a result in all of these campaigns, so there is nothing to compare; "
+            f"{_counts(directories, counted)}. Continue them with campaign run DIR."
+        )
+    return Comparison(_names(directories), scenarios, np.array(common))
+
+
+def _counts(directories: Sequence[Path], counted: list[set[int]]) -> str:
+    pairs = zip(directories, counted, strict=True)
+    return ", ".join(f"{directory} has {len(ids)} realizations with a result" for directory, ids in pairs)
+
+
+def _names(directories: Sequence[Path]) -> tuple[str, ...]:
+    """Return the last parts of the paths, or the paths as given where these are the same."""
+    short = tuple(directory.resolve().name for directory in directories)
+    return short if len(set(short)) == len(short) else tuple(map(str, directories))
+
+
+def _receptors(results: Results) -> list[str]:
+    """Return the names of a campaign's receptors."""
+    if not results.data.data_vars.keys() >= REACHED.keys():
+        return []
+    return [str(name) for name in results.data["receptor"].values]

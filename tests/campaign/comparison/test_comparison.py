@@ -1,0 +1,162 @@
+"""Campaigns beside each other: which pairs count, what is said of them, and what is written."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from scenarios import keep
+
+from campaign import cli
+from campaign.comparison.doubts import doubts
+from campaign.comparison.measures import measures
+from campaign.comparison.scenarios import compare
+from campaign.errors import RefusalError
+from campaign.record import Status
+
+RUNOUTS = np.random.default_rng(1).normal(10.0, 1.0, 12)
+STRONGER = "soil.cohesion.mean=22 kPa"
+
+
+@pytest.fixture
+def two(tmp_path):
+    """Return two campaigns: of 12, the second one runs 2 m less far, 3 do not slide there and 1 fails in each."""
+    statuses = [Status.crashed, *[Status.slid] * 11]
+    weak = keep(tmp_path / "weak", RUNOUTS, statuses=statuses, reaches=[1] * 6 + [0] * 6)
+    statuses = [*[Status.slid] * 8, *[Status.no_slide] * 3, Status.timeout]
+    strong = keep(tmp_path / "strong", RUNOUTS - 2.0, STRONGER, statuses=statuses, reaches=[1] * 2 + [0] * 10)
+    return weak, strong
+
+
+def by_words(given, *distances):
+    return {measure.words: measure.differences[0] for measure in measures(given, distances)}
+
+
+def test_pairs_are_the_realizations_with_a_result_in_all(two):
+    given = compare(two)
+    assert given.names == ("weak", "strong")
+    assert given.ids.tolist() == list(range(1, 11))
+
+
+def test_run_out_is_zero_without_a_slide_and_given_sliding_it_is_not(two):
+    found = by_words(compare(two), 9.0)
+    without = np.concatenate([np.full(7, -2.0), -RUNOUTS[8:11]])
+    assert found["mean run-out, 0 without a slide"].interval.estimate == pytest.approx(without.mean())
+    assert found["mean run-out where all slide"].interval.estimate == pytest.approx(-2.0)
+    assert found["mean run-out where all slide"].interval.n == 7
+    assert found["mean sliding volume, 0 without a slide"].interval.estimate == pytest.approx(10 * without.mean())
+    assert found["P(slide)"][:2] == (1.0, 0.7)
+    shares = np.mean(RUNOUTS[1:11] > 9.0), np.mean(np.where(np.arange(1, 11) < 8, RUNOUTS[1:11] - 2.0, 0.0) > 9.0)
+    assert found["P(run-out above 9 m)"][:2] == pytest.approx(shares)
+    assert found["P(front reaches road)"][:2] == (0.5, 0.1)
+    assert found["P(moved ground reaches Straße)"][:2] == (0.5, 0.1)
+
+
+def test_the_scenes_differ_in_the_units_of_people(two):
+    assert compare(two).changes(1) == [("soil.cohesion.mean", "20 kPa", "22 kPa")]
+
+
+def test_failures_are_told_and_a_plain_comparison_needs_no_word(two, tmp_path):
+    assert doubts(compare(two)) == [
+        "Realizations that failed in any campaign are left out of all (1 in weak, 1 in strong)."
+    ]
+    again = keep(tmp_path / "again", RUNOUTS, "soil.cohesion.mean=23 kPa")
+    assert doubts(compare([keep(tmp_path / "once", RUNOUTS), again])) == []
+
+
+@pytest.mark.parametrize(
+    ("override", "sentence"),
+    [
+        ("campaign.seed=7", "nothing in common"),
+        ("field.vertical=3 m", "(field.vertical)"),
+        ("geometry.slope.height=16 m", "another width or height"),
+        ("slide.front=tip", "front of the tip"),
+        ("numerics.cell=1 m", "what the mesh changes"),
+        ("slide.failed=2 m", "slide.failed differ"),
+    ],
+)
+def test_what_pairs_do_not_share_is_told(tmp_path, override, sentence):
+    given = compare([keep(tmp_path / "one", RUNOUTS), keep(tmp_path / "other", RUNOUTS, override)])
+    (told,) = doubts(given)
+    assert sentence in told
+
+
+def test_the_front_is_that_of_the_first(tmp_path):
+    one, other = keep(tmp_path / "one", RUNOUTS, "slide.front=tip"), keep(tmp_path / "other", RUNOUTS)
+    assert compare([one, other]).runouts(1) == pytest.approx(RUNOUTS + 1.0)
+    assert compare([other, one]).runouts(1) == pytest.approx(RUNOUTS)
+
+
+def test_bounds_counts_and_other_receptors_are_told(tmp_path):
+    one = keep(tmp_path / "one", RUNOUTS, statuses=[Status.reached_wall, *[Status.slid] * 11])
+    other = keep(tmp_path / "other", RUNOUTS[:10], 'receptor=[{name="road", x="42 m"}, {name="house", x="46 m"}]')
+    data = xr.load_dataset(other / "results.nc", decode_timedelta=False)
+    data["receptor"] = ("receptor", np.array(["road", "house"], dtype=object))
+    data.attrs["realization_sha256"] = "0" * 64
+    data.to_netcdf(other / "results.nc")
+    given = compare([one, other])
+    told = " ".join(doubts(given))
+    assert given.receptors == ("road",)
+    for words in ("12 in one, 10 in other", "another version", "1 of the 10", "Straße, house"):
+        assert words in told
+
+
+def test_what_cannot_be_compared_is_refused(two, tmp_path):
+    failed = keep(tmp_path / "failed", RUNOUTS, statuses=[Status.crashed] * 12)
+    for directories, words in (
+        (two[:1], "two or more"),
+        ((*two, two[0]), "more than once"),
+        ((two[0], failed), "failed has 0 realizations with a result"),
+        ((two[0], tmp_path), "holds no results.nc"),
+    ):
+        with pytest.raises(RefusalError, match=words):
+            compare(directories)
+
+
+@pytest.fixture
+def command(two, tmp_path, monkeypatch):
+    """Return what runs the command on two campaigns, in an empty directory."""
+    monkeypatch.setattr(cli, "_pin_threads", lambda: None)
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    return lambda *options: cli.main(["compare", *map(str, two), *options])
+
+
+def test_the_command_prints_writes_and_draws(command, capsys, tmp_path):
+    assert command("--distance", "9 m", "--distance", "1100 cm") == 0
+    told = capsys.readouterr().out
+    for words in (
+        "strong against weak, 10 realizations",
+        "22 kPa instead of 20 kPa",
+        "P(run-out above 11 m)",
+        "Note: ",
+    ):
+        assert words in told
+    assert "<svg" in (tmp_path / "here" / "comparison" / "comparison.svg").read_text("utf-8")
+    data = xr.load_dataset(tmp_path / "here" / "comparison" / "comparison.nc")
+    assert dict(data.sizes) == {
+        "scenario": 2,
+        "realization": 10,
+        "receptor": 2,
+        "quantile": 2,
+        "distance": 2,
+        "bound": 2,
+    }
+    assert data.runout_mean_given_all_slide_difference.sel(scenario="strong") == pytest.approx(-2.0)
+    assert data.exceedance.sel(distance=9.0, scenario="weak") == np.mean(RUNOUTS[1:11] > 9.0)
+    assert np.isnan(data.runout_mean_difference.sel(scenario="weak"))
+    for name, stored in data.data_vars.items():
+        assert stored.attrs["long_name"], name
+        assert stored.attrs["units"], name
+
+
+def test_a_comparison_is_written_again_and_never_over_a_campaign(command, two, capsys):
+    assert command() == command() == 0
+    before = (two[0] / "results.nc").read_bytes()
+    assert command("--out", str(two[0])) == 2
+    assert "holds a campaign" in capsys.readouterr().err
+    assert (two[0] / "results.nc").read_bytes() == before
+    assert not (two[0] / "comparison.nc").exists()
+
+
+def test_a_distance_without_unit_is_refused(command, capsys):
+    assert command("--distance", "12") == 2
+    assert '--distance is "12", but a length needs its unit' in capsys.readouterr().err
