@@ -17,6 +17,8 @@ from campaign.scene.cost import (
 from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, FirstLook
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.outlook import outlook
+from campaign.scene.sections import Softening
+from campaign.scene.softening import RING_SHEAR, softening_words
 from campaign.simulation.field_size import FieldSize
 from campaign.terminal import data_size, duration
 
@@ -31,6 +33,7 @@ def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
         "ground": _ground(look),
         "toe": _toe(scene, look),
         "factor of safety": _factors(look),
+        "softening": _softening(scene.soil.softening),
         "what to expect": outlook(look),
         "time": _time(scene, look),
         "mesh": _mesh(scene),
@@ -84,6 +87,13 @@ def _circle(look: FirstLook, circle: SlipCircle | None) -> str:
         return ""
     depth = circle.depth(look.surface)
     return f" on a circle from x = {circle.entry:.3g} m to {circle.exit:.3g} m, at most {depth:.2g} m deep"
+
+
+def _softening(softening: Softening) -> str:
+    if softening.law == "none":
+        return "None: strength stays at its peak."
+    words = softening_words(softening)
+    return f"{softening.law.capitalize()}: {words}; {RING_SHEAR}."
 
 
 def _time(scene: Scene, look: FirstLook) -> str:

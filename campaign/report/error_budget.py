@@ -9,6 +9,7 @@ from campaign.report import estimates
 from campaign.results.results import Results
 from campaign.scene import Scene
 from campaign.scene.sections import RandomField
+from campaign.scene.softening import known_rate, softening_words
 from campaign.simulation.solver_model import softening_rate
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import failure_bounds
@@ -162,18 +163,15 @@ def _cross_correlation(field: RandomField) -> str:
 
 
 def _softening(scene: Scene) -> str:
-    softening, rate = scene.soil.softening, softening_rate(scene)
-    if softening.law == "none" or softening.rate is None:
+    softening, rate, known = scene.soil.softening, softening_rate(scene), known_rate(scene.soil.softening)
+    if softening.law == "none" or known is None:
         return "none"
     if softening.internal_length is not None:
         average = f"{softening.law} with plastic strain averaged over {softening.internal_length:g} m"
         cell = scene.numerics.cell
-        coarse = f", {rate:.3g} on cells of {cell:g} m for the same effect" if rate > softening.rate else ""
-        return f"{average}, rate {softening.rate:g}{coarse}"
-    return (
-        f"{softening.law} with plastic strain, rate {rate:g} at this cell, in proportion to its "
-        f"size ({softening.rate:g} at {softening.reference_cell:g} m)"
-    )
+        coarse = f"; rate {rate:.3g} on cells of {cell:g} m for the same effect" if rate > known else ""
+        return f"{average}: {softening_words(softening)}{coarse}"
+    return f"{softening.law} with plastic strain, rate {rate:.3g} at this cell: {softening_words(softening)}"
 
 
 def _known(value: float, form: str, unit: str) -> str:

@@ -29,6 +29,7 @@ SOILS = (
     ("soil.cohesion.cov", 0.0, 1.0, "0.1 to 0.6, and a field beyond 1 is nearly 0 nearly everywhere"),
     ("soil.friction_angle.cov", 0.0, 1.0, "0.05 to 0.2"),
     ("soil.softening.rate", 1e-4, 1e3, "about 0.1 to 10, and a rate far from that is no softening or a sudden one"),
+    ("soil.softening.slip_to_residual", 1e-3, 10.0, "residual strength after 0.01 to 1 m of slip"),
 )
 """Keys, the SI values between which they are not remarked on, and what soils have."""
 

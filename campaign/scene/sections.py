@@ -81,10 +81,11 @@ class FrictionAngle(Section):
 
 
 class Softening(Section):
-    """How strength falls from peak to residual with plastic strain."""
+    """How strength falls from peak to residual: at a rate per unit plastic strain, or over a slip of a band in m."""
 
     law: Literal["exponential", "linear", "none"]
     rate: PositiveNumber | None = None
+    slip_to_residual: PositiveLength | None = None
     reference_cell: PositiveLength | None = None
     internal_length: PositiveLength | None = None
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.scene import Scene
+from campaign.scene.softening import known_rate
 from solver.basis import half_length_in_cells
 from solver.constants import STANDARD_GRAVITY
 from solver.grid import whole_cells
@@ -49,11 +50,12 @@ def material_of(scene: Scene) -> Material:
 def softening_rate(scene: Scene) -> float:
     """Return the rate, per unit plastic strain, at which the strength of a scene softens on its cells."""
     softening, numerics = scene.soil.softening, scene.numerics
-    if softening.law == "none" or softening.rate is None:
+    rate = known_rate(softening)
+    if softening.law == "none" or rate is None:
         return 0.0
     half_length = half_length_in_cells(numerics.basis, numerics.particles_per_cell)
     internal_length = softening.internal_length or 0.0
-    return rate_on_cells(softening.rate, numerics.cell, half_length, internal_length, softening.reference_cell)
+    return rate_on_cells(rate, numerics.cell, half_length, internal_length, softening.reference_cell)
 
 
 def output_times(end_time: float, interval: float) -> Array:

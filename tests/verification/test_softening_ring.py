@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 from driver import Row
 from scipy.optimize import minimize_scalar
-from shear_band import PEAK, closed_form
+from shear_band import PEAK, WEAK_SHARE, closed_form
 from shear_ring import compliance, shear_force
 
 from solver.internal_length import BAND_THICKNESS
+from solver.slip_to_residual import SHARE_LEFT, rate_of
 
 RATE, LENGTH = 1.875, 1.25
 CELLS = (0.5, 0.25, 0.125)
@@ -56,6 +57,21 @@ def test_non_local_softening_follows_the_closed_form(cell):
 def test_a_band_that_softens_locally_is_as_thick_as_allowed_for():
     """Measured 2.11 and 2.12 cells: what ``nonlocal_softening`` allows for."""
     np.testing.assert_allclose(local_thickness(CELLS[0]) / CELLS[0], BAND_THICKNESS, rtol=0.02)
+
+
+def share_left(thickness):
+    """Return what is left of the drop after the slip to residual if a band softens over ``thickness`` (m)."""
+    return SHARE_LEFT ** (LENGTH / thickness)
+
+
+@pytest.mark.slow
+def test_a_band_across_the_grid_has_lost_95_percent_after_the_slip_to_residual():
+    """Between what bands of 2.0 and 2.6 cells allow, since the sum of variances takes them for 2.1 cells thick."""
+    cell, slip_to_residual = CELLS[1], 0.55
+    displacement, stress = shear_force(cell, rate_of(slip_to_residual, LENGTH, is_linear=False), LENGTH)
+    left = np.interp(slip_to_residual, displacement - compliance() * stress, stress) / (WEAK_SHARE * PEAK)
+    thin, thick = (np.sqrt(LENGTH**2 + (cells**2 - BAND_THICKNESS**2) * cell**2) for cells in (2.0, 2.6))
+    assert share_left(thin) < left < share_left(thick)
 
 
 def rows():

@@ -7,8 +7,10 @@ soon on coarse cells.
 
 import numpy as np
 from driver import Row
-from shear_band import PEAK, closed_form
+from shear_band import PEAK, WEAK_SHARE, closed_form
 from shear_strip import COARSE_CELL, RESIDUAL, compliance, shear_force
+
+from solver.slip_to_residual import rate_of
 
 CELLS = COARSE_CELL * np.array([1.0, 0.5, 0.25])
 RATE, LENGTH = 6.0, 2.0  # 4, 8 and 16 cells in the length
@@ -51,11 +53,31 @@ def test_local_softening_scaled_with_the_cell_gives_one_curve_in_a_band():
     assert spread(curves(CELLS[:2], [LOCAL_RATE, 0.5 * LOCAL_RATE], 0.0)[1]) < 0.05
 
 
+SLIP_TO_RESIDUAL = 0.7
+"""In m; less than 0.4 m would snap back, as the elastic strip gives more than the band takes."""
+
+
+def lost_share(cell):
+    """Return the share of the drop in strength that a band has lost after ``SLIP_TO_RESIDUAL``, and its tolerance."""
+    displacement, stress = shear_force(cell, rate_of(SLIP_TO_RESIDUAL, LENGTH, is_linear=False), LENGTH)
+    drop = WEAK_SHARE * PEAK - RESIDUAL
+    slip = displacement - compliance() * stress
+    at_the_slip = float(np.interp(SLIP_TO_RESIDUAL, slip, stress))
+    return 1.0 - (at_the_slip - RESIDUAL) / drop, 0.025 * at_the_slip / drop
+
+
+def test_a_band_has_lost_95_percent_after_the_slip_to_residual():
+    """Within the 2.5 % of the stress that are allowed to cells of an eighth of the internal length."""
+    lost, tolerance = lost_share(COARSE_CELL / 2.0)
+    np.testing.assert_allclose(lost, 0.95, atol=tolerance)
+
+
 def rows():
     """Return the lines of the verification table."""
     non_local = errors()
     scaled = spread(curves(CELLS[:2], [LOCAL_RATE, 0.5 * LOCAL_RATE], 0.0)[1])
     lengths = ", ".join(f"{LENGTH / cell:g}" for cell in CELLS)
+    lost, tolerance = lost_share(COARSE_CELL / 2.0)
     return [
         Row(
             f"Softening strip along the grid, {lengths} cells in the internal length: stress",
@@ -70,5 +92,12 @@ def rows():
             f"{scaled:.1%} apart",
             f"{scaled:.1%}",
             scaled < 0.05,
+        ),
+        Row(
+            f"Softening strip, slip to residual {SLIP_TO_RESIDUAL} m: strength lost after it",
+            f"95 % within {tolerance:.1%} (2.5 % of the stress)",
+            f"{lost:.1%}",
+            f"{lost - 0.95:+.1%}",
+            abs(lost - 0.95) < tolerance,
         ),
     ]

@@ -103,10 +103,28 @@ def _dilation(dilation: float, residual: float, cov: float | None) -> str | None
     return None
 
 
-@RULES.on("soil.softening.rate", "soil.softening.law")
-def _softening_rate(rate: float | None, law: str) -> str | None:
-    if rate is None and law != "none":
-        return f'the {law} law needs it; add for instance rate = 0.35, or choose law = "none"'
+@RULES.on("soil.softening.rate", "soil.softening.slip_to_residual", "soil.softening.law")
+def _softening_rate(rate: float | None, slip: float | None, law: str) -> str | None:
+    if rate is None and slip is None and law != "none":
+        return (
+            f'the {law} law needs it; add for instance rate = 0.35, or slip_to_residual = "0.3 m" as a ring shear test '
+            'gives it, or choose law = "none"'
+        )
+    return None
+
+
+@RULES.on("soil.softening.slip_to_residual", "soil.softening.rate", "soil.softening.internal_length")
+def _slip_to_residual(slip: float | None, rate: float | None, internal_length: float | None) -> str | None:
+    if slip is None:
+        return None
+    if rate is not None:
+        return "the rate says the same in other terms; leave out one of the two"
+    if internal_length is None:
+        return (
+            "slip softens a band of a known thickness, and local softening has none: its bands are 1 cell thick along "
+            "the grid, 2.1 cells across it, and 4.4 where locking thickens them; give an internal_length instead of "
+            "the reference_cell, or a rate"
+        )
     return None
 
 

@@ -1,0 +1,36 @@
+"""What a scene says of softening, as a rate and as the slip after which strength is residual."""
+
+from campaign.scene.sections import Softening
+from solver.internal_length import BAND_THICKNESS
+from solver.slip_to_residual import SHARE_LEFT, rate_of, slip_of
+
+LOCKED_BAND_THICKNESS = 4.4
+"""In cells, of bands that volumetric locking thickens: plain uGIMP in `ma2023-printed`."""
+
+RING_SHEAR = "ring shear tests on clay need 0.1 to 0.5 m"
+
+
+def known_rate(softening: Softening) -> float | None:
+    """Return the rate per unit plastic strain over the internal length or at the reference cell, None without one."""
+    if softening.slip_to_residual is None or softening.internal_length is None:
+        return softening.rate
+    return rate_of(softening.slip_to_residual, softening.internal_length, softening.law == "linear")
+
+
+def softening_words(softening: Softening) -> str:
+    """Say when a band is residual, and at which rate: "95 % of the drop is lost after 0.30 m of slip (rate 21.6)"."""
+    rate, is_linear = known_rate(softening), softening.law == "linear"
+    if softening.law == "none" or rate is None:
+        return "none"
+    share = "all" if is_linear else f"{100 * (1 - SHARE_LEFT):g} %"
+    lost = f"{share} of the drop from peak to residual strength is lost"
+    if softening.internal_length is not None:
+        slip = slip_of(rate, softening.internal_length, is_linear)
+        return f"{lost} after {slip:.2g} m of slip (rate {rate:.3g})"
+    cells = BAND_THICKNESS, LOCKED_BAND_THICKNESS
+    cell = softening.reference_cell or 0.0
+    thin, thick = (slip_of(rate, each * cell, is_linear) for each in cells)
+    return (
+        f"{lost} after {thin:.2g} m of slip in bands {cells[0]:g} cells thick, as cell averages give, and after "
+        f"{thick:.2g} m in bands of {cells[1]:g} cells, as locking gives (rate {rate:.3g} on cells of {cell:g} m)"
+    )
