@@ -26,6 +26,7 @@ LADDER = {
         "softening_ring",
         "softening_strip",
         "column_collapse",
+        "granular_column",
     ),
     "Random fields": ("field_moments",),
 }

@@ -6,53 +6,17 @@ fixed, so bars slide on it with their own friction. No parameter is fitted.
 """
 
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 import pytest
+from columns import collapse, column
 from driver import Row
 
-from campaign.scene import load_scene
-from campaign.seeds import BASELINE
 from campaign.simulation.detachment import detached_volume
-from campaign.simulation.ground import prepare
 from solver import observables
-from solver.march import MarchEnd, march_to_rest
+from solver.march import MarchEnd
 
 DATA = Path(__file__).parent / "data"
-COLUMN = 0.01  # m, width of the columns whose mean height is compared
-FRONT_HEIGHT = 1.5e-3  # m: of the last measured point, at the front
-
-
-class Collapse(NamedTuple):
-    """A column at rest; lengths in m."""
-
-    model: object
-    start: object
-    history: object
-    slide: object
-    column: np.ndarray  # (k,) centres
-    height: np.ndarray  # (k,)
-
-    @property
-    def front(self):
-        """Place where the connected deposit is lower than the last measured point of the front."""
-        k = int(np.argmax(self.height < FRONT_HEIGHT))
-        return np.interp(-FRONT_HEIGHT, -self.height[k - 1 : k + 1], self.column[k - 1 : k + 1])
-
-
-def collapse(*overrides):
-    """Run the built-in scene with its mean strengths everywhere."""
-    scene = load_scene("bui2008", overrides)
-    ground = prepare(scene)
-    start = ground.released(BASELINE)
-    history = march_to_rest(ground.model, start, ground.coordinates["time"])
-    edges = np.arange(0.0, ground.model.surface.width + 0.5 * COLUMN, COLUMN)
-    half_spacing = 0.5 * ground.model.particle_spacing
-    # Separated bars have been given the volume of the gaps between them; their mass knows better.
-    debris = history.particles._replace(volume=history.particles.mass / ground.model.materials[0].density)
-    height = observables.deposit_surface(debris, half_spacing, edges)
-    return Collapse(ground.model, start, history, ground.model.criteria, 0.5 * (edges[1:] + edges[:-1]), height)
 
 
 def measured(name):
@@ -73,16 +37,6 @@ def failure_line_error(bars):
     spacing = np.sqrt(bars.start.volume.mean())
     tops = [bars.start.y[stayed & (np.abs(bars.start.x - place) <= 0.6 * spacing)].max(initial=0.0) for place in x]
     return np.array(tops) + 0.5 * spacing - z
-
-
-def rod_column(aspect_ratio):
-    """Return the overrides for a column 100 mm high of ``aspect_ratio`` times its width, 20 cells across the less."""
-    width = 100.0 / aspect_ratio
-    cell = min(100.0, width) / 20.0
-    end = cell * round(9.0 * aspect_ratio**0.5 * width / cell)
-    points = ((0, 100), (width, 100), (width, 0), (end, 0))
-    surface = ", ".join(f'["{x:.6g} mm", "{y:.6g} mm"]' for x, y in points)
-    return f"geometry.surface=[{surface}]", f'numerics.cell="{cell:.6g} mm"'
 
 
 @pytest.fixture(scope="module")
@@ -153,8 +107,9 @@ def test_scaling_of_rod_columns(aspect_ratio):
     With the friction angle of the other experiment, because theirs is not known here. At 0.65 the measured law begins;
     its (d - d0) / d0 there is 2.15, against 1.21 that Bui et al. measured at 0.5.
     """
-    rods = collapse(*rod_column(aspect_ratio))
     width = 0.1 / aspect_ratio
+    base = 1e3 * width * 9.0 * aspect_ratio**0.5
+    rods = collapse(*column(1e3 * width, 100.0, base, min(5.0, 50.0 * width)))
     assert rods.front / width == pytest.approx(4.30 * aspect_ratio**0.72, rel=0.15)
     assert 0.1 / rods.height[0] == pytest.approx(1.42 * aspect_ratio ** (2 / 3), rel=0.1)
 
