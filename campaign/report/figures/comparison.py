@@ -16,7 +16,7 @@ def comparison(given: Comparison) -> Illustration:
     figure, panels = new_figure(8.2, 2, height_ratios=[5, 4])
     _pairs(panels[0], given)
     _curves(panels[1], given)
-    letter(panels, ["The same realizations in each scenario", "Probability of a longer run-out"])
+    letter(panels, [f"Each realization beside that of {given.names[0]}", "Probability of a longer run-out"])
     first, others = given.names[0], ", ".join(given.names[1:])
     caption = (
         f"(a) Final run-out of {others} against that of {first} in the same {len(given.ids)} realizations: what lies "
