@@ -13,17 +13,18 @@ from numba.extending import overload, register_jitable
 
 from solver.compile_cache import compile_cache
 
+FAST_MATH = {"contract", "reassoc", "arcp", "nsz"}
 _FLAGS: dict[str, Any] = {
     # Sums may be reordered and fused, which vectorises them. NaN and infinity keep their meaning, because the guards
     # against divergence rest on comparisons with NaN being false.
-    "fastmath": {"contract", "reassoc", "arcp", "nsz"},
+    "fastmath": FAST_MATH,
     # Division by zero gives infinity instead of a Python exception, which would stop vectorisation.
     "error_model": "numpy",
-    # A warm start takes milliseconds instead of tens of seconds.
-    "cache": True,
     # Other threads of the process (the hand-out of realizations) run while a kernel computes.
     "nogil": True,
 }
+# What is inlined is compiled with the kernel that calls it, and never kept by itself: Numba would keep it beside its
+# source, and not notice when what it calls changes.
 _INLINED = {"forceinline": True, **_FLAGS}
 
 
@@ -37,7 +38,7 @@ def _compiled(**flags: Any) -> Callable[[Callable[..., Any]], Any]:
     return decorate
 
 
-kernel = _compiled(**_FLAGS)
+kernel = _compiled(cache=True, **_FLAGS)  # a warm start takes milliseconds instead of tens of seconds
 inlined = _compiled(**_INLINED)
 point = register_jitable(**_INLINED)
 

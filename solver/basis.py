@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solver._jit import inlined
+from solver._jit import kernel, point
 from solver.grid import particle_spacing
 from solver.method import Basis
 
@@ -36,32 +36,32 @@ def half_length_in_cells(basis: Basis, particles_per_cell: int) -> float:
 
 
 class Stencil(NamedTuple):
-    """Weights of a block of particles on their 3 x 3 nodes, kept factorised by direction."""
+    """Weights of particles on their 3 x 3 nodes, kept factorised by direction."""
 
-    node: np.ndarray  # (B,) flat index of the lower left node
-    sx: np.ndarray  # (3, B) weights along x
-    sy: np.ndarray  # (3, B)
-    gx: np.ndarray  # (3, B) weight gradients along x, 1/m
-    gy: np.ndarray  # (3, B)
-
-
-def allocate_stencil(block_size: int) -> Stencil:
-    """Return scratch space for the weights of ``block_size`` particles."""
-    return Stencil(np.empty(block_size, np.int64), *(np.empty((3, block_size)) for _ in range(4)))
+    node: np.ndarray  # (n,) flat index of the lower left node
+    sx: np.ndarray  # (3, n) weights along x
+    sy: np.ndarray  # (3, n)
+    gx: np.ndarray  # (3, n) weight gradients along x, 1/m
+    gy: np.ndarray  # (3, n)
 
 
-@inlined
+def allocate_stencil(n_particles: int) -> Stencil:
+    """Return scratch space for the weights of ``n_particles``."""
+    return Stencil(np.empty(n_particles, np.int64), *(np.empty((3, n_particles)) for _ in range(4)))
+
+
+@point
 def weight_and_gradient(distance, half_length, inverse_cell):
-    """Return ``(S_0, S_1, S_2, S_0', S_1', S_2')`` at ``distance`` cells from the first of the three nodes."""
+    """Return ``(S_0, S_1, S_2)`` and ``(S_0', S_1', S_2')`` at ``distance`` cells from the first of the three nodes."""
     t = max(0.0, distance - (1.0 - half_length))
     s2 = t * t / (4.0 * half_length)
     s0 = 1.0 - distance + s2
     g2 = t / (2.0 * half_length)
     g0 = g2 - 1.0
-    return (s0, 1.0 - s0 - s2, s2, g0 * inverse_cell, -(g0 + g2) * inverse_cell, g2 * inverse_cell)
+    return (s0, 1.0 - s0 - s2, s2), (g0 * inverse_cell, -(g0 + g2) * inverse_cell, g2 * inverse_cell)
 
 
-@inlined
+@kernel
 def evaluate_stencil(stencil, x, y, grid):
     """Fill ``stencil`` with the weights of the particles at ``x``, ``y`` (n,) in m, from the lower left wall corner."""
     inverse_cell = 1.0 / grid.cell_size
@@ -71,9 +71,8 @@ def evaluate_stencil(stencil, x, y, grid):
         i = int(xi - grid.half_length)
         j = int(yi - grid.half_length)
         stencil.node[p] = j * grid.columns + i
-        (stencil.sx[0, p], stencil.sx[1, p], stencil.sx[2, p], stencil.gx[0, p], stencil.gx[1, p], stencil.gx[2, p]) = (
-            weight_and_gradient(xi - i, grid.half_length, inverse_cell)
-        )
-        (stencil.sy[0, p], stencil.sy[1, p], stencil.sy[2, p], stencil.gy[0, p], stencil.gy[1, p], stencil.gy[2, p]) = (
-            weight_and_gradient(yi - j, grid.half_length, inverse_cell)
-        )
+        sx, gx = weight_and_gradient(xi - i, grid.half_length, inverse_cell)
+        sy, gy = weight_and_gradient(yi - j, grid.half_length, inverse_cell)
+        for k in range(3):
+            stencil.sx[k, p], stencil.gx[k, p] = sx[k], gx[k]
+            stencil.sy[k, p], stencil.gy[k, p] = sy[k], gy[k]

@@ -4,34 +4,42 @@ from typing import NamedTuple
 
 import numpy as np
 
+from solver.constants import LANES
+
 PADDING = 2  # layers of nodes beyond a wall: GIMP weights reach one, a particle pressed into the wall a second
+SCALARS = ("mass", "cell_volume", "cell_dilation", "cell_pressure", "cell_plastic_strain")
+VECTORS = ("momentum", "force", "acceleration", "velocity", "remapped")
 NO_SMOOTHING = np.ones(1)
 SMALLEST_MASS = 1e-12  # kg/m: below it a node carries nothing and 0/0 is avoided
 
 
 class Grid(NamedTuple):
-    """Nodes of a rectangular grid whose lower left wall corner is the origin of coordinates."""
+    """Nodes of a rectangular grid whose lower left wall corner is the origin of coordinates.
+
+    Nodes are numbered row by row. Rows are padded to whole vectors (``lanes``, ``tiles``); nodes of the padding are
+    never touched.
+    """
 
     cell_size: float  # m
     half_length: float  # l_p / h, of the basis functions
     origin: float  # m, both coordinates of node 0
-    columns: int
+    columns: int  # of a row with its padding
     rows: int
+    base_columns: int  # where the 3 x 3 nodes of a particle may begin
     width: float  # m, between the side walls
     height: float  # m, of the space particles may occupy
-    free_x: np.ndarray  # (nodes,) 1 where the node may move horizontally, 0 at the sides and the base
-    free_y: np.ndarray  # (nodes,) 1 where the node may move vertically, 0 at the base
-    mass: np.ndarray  # (nodes,) kg/m
-    momentum: np.ndarray  # (nodes, 2) kg/s, of the particles as they are
-    force: np.ndarray  # (nodes, 2) N/m, internal
-    acceleration: np.ndarray  # (nodes, 2) m/s2
-    velocity: np.ndarray  # (nodes, 2) m/s, at the end of the step
-    remapped: np.ndarray  # (nodes, 2) momentum (kg/s), then velocity (m/s), of the updated particles
-    cell_volume: np.ndarray  # (nodes,) m2; a cell has the number of its lower left node, see ``cells``
-    cell_dilation: np.ndarray  # (nodes,) mean increment of the volume strain
-    cell_pressure: np.ndarray  # (nodes,) Pa, mean of (s_xx + s_yy) / 2
-    cell_plastic_strain: np.ndarray  # (nodes,) averaged increment, see ``nonlocal_softening``
-    cell_scratch: np.ndarray  # (nodes,)
+    free_x: np.ndarray  # (rows, columns) 1 where the node may move horizontally, 0 at the sides and the base
+    free_y: np.ndarray  # (rows, columns) 1 where the node may move vertically, 0 at the base
+    mass: np.ndarray  # (rows, columns) kg/m
+    momentum: np.ndarray  # (rows, 2, columns) kg/s, of the particles as they are
+    force: np.ndarray  # (rows, 2, columns) N/m, internal
+    acceleration: np.ndarray  # (rows, 2, columns) m/s2
+    velocity: np.ndarray  # (rows, 2, columns) m/s, at the end of the step
+    remapped: np.ndarray  # (rows, 2, columns) momentum (kg/s), then velocity (m/s), of the updated particles
+    cell_volume: np.ndarray  # (rows, columns) m2; a cell has the number of its lower left node, see ``cells``
+    cell_dilation: np.ndarray  # (rows, columns) mean increment of the volume strain
+    cell_pressure: np.ndarray  # (rows, columns) Pa, mean of (s_xx + s_yy) / 2
+    cell_plastic_strain: np.ndarray  # (rows, columns) averaged increment, see ``nonlocal_softening``
     smoothing: np.ndarray  # (2k + 1,) weights of the average over cells, along one axis
 
 
@@ -63,33 +71,25 @@ def allocate_grid(
     """
     cells_x = whole_cells(width, cell_size)
     cells_y = whole_cells(height, cell_size)
-    columns = cells_x + 1 + 2 * PADDING
+    base_columns = cells_x + 1 + 2 * PADDING - 2
+    columns = LANES * (-(-base_columns // LANES) + 1)
     rows = cells_y + 1 + 2 * PADDING
     i = np.arange(columns) - PADDING
     j = np.arange(rows) - PADDING
     above_base = np.broadcast_to((j > 0)[:, None], (rows, columns))
     between_sides = np.broadcast_to((i > 0) & (i < cells_x), (rows, columns))
-    nodes = rows * columns
     return Grid(
         cell_size=float(cell_size),
         half_length=float(half_length),
         origin=-PADDING * float(cell_size),
         columns=columns,
         rows=rows,
+        base_columns=base_columns,
         width=cells_x * float(cell_size),
         height=cells_y * float(cell_size),
-        free_x=(above_base & between_sides).astype(float).ravel(),
-        free_y=above_base.astype(float).ravel(),
-        mass=np.zeros(nodes),
-        momentum=np.zeros((nodes, 2)),
-        force=np.zeros((nodes, 2)),
-        acceleration=np.zeros((nodes, 2)),
-        velocity=np.zeros((nodes, 2)),
-        remapped=np.zeros((nodes, 2)),
-        cell_volume=np.zeros(nodes),
-        cell_dilation=np.zeros(nodes),
-        cell_pressure=np.zeros(nodes),
-        cell_plastic_strain=np.zeros(nodes),
-        cell_scratch=np.zeros(nodes),
+        free_x=(above_base & between_sides).astype(float),
+        free_y=above_base.astype(float),
         smoothing=smoothing,
+        **{name: np.zeros((rows, columns)) for name in SCALARS},
+        **{name: np.zeros((rows, 2, columns)) for name in VECTORS},
     )

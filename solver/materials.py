@@ -1,7 +1,7 @@
 """Materials of the ground, and the update of particles that each have their own.
 
-A particle carries the number of its material. Where there is one material the number is not even read; where there are
-several a block is cut where the number changes, so that each piece still runs through one law as a vectorised loop.
+A particle carries the number of its material. Eight particles that are updated together may be of several: each law
+that one of them has is evaluated for all, and each takes its own.
 """
 
 from typing import Any, NamedTuple
@@ -11,10 +11,11 @@ import numpy as np
 from solver._jit import chosen_by_type, inlined
 from solver.constants import STANDARD_GRAVITY
 from solver.elastic import p_wave_speed
-from solver.laws.registry import Law
-from solver.operations import update_material
-from solver.particles import Particles, take_block
-from solver.softening import remaining_shares, softened
+from solver.kinematics import rotate_stress, volume_ratio
+from solver.lanes import anywhere, where
+from solver.laws.registry import Law, update_stress
+from solver.particles import Particles
+from solver.softening import Strength, remaining_shares, softened
 
 
 class Material(NamedTuple):
@@ -35,65 +36,81 @@ class Material(NamedTuple):
         return p_wave_speed(self.law.bulk_modulus, self.law.shear_modulus, self.density)
 
 
+class Deformed(NamedTuple):
+    """Particles after an increment, and the work of their stresses in it; lanes or floats."""
+
+    stress_xx: float  # Pa
+    stress_yy: float
+    stress_zz: float
+    stress_xy: float
+    plastic_strain: float
+    volume: float  # m2
+    work: float  # J/m
+
+
 @inlined
-def end_of_run(numbers, start):
-    """Return where the run of equal ``numbers`` (n,) that begins at ``start`` ends."""
-    stop = start + 1
-    while stop < numbers.size and numbers[stop] == numbers[start]:
-        stop += 1
-    return stop
-
-
-def update_by_number(number, particles, increment, laws, dt):
-    """Update particles that all have the material of that number; see ``update_materials``."""
-    return update_material(particles, increment, laws[number], dt)
-
-
-@chosen_by_type(update_by_number)
-def _law_of_number(number: Any, particles: Any, increment: Any, laws: Any, dt: Any) -> Any:
-    """Types differ from law to law, so the tuple is unrolled: this law, or one of those behind it."""
-
-    def last(number, particles, increment, laws, dt):
-        return update_material(particles, increment, laws[0], dt)
-
-    def first_or_later(number, particles, increment, laws, dt):
-        if number == 0:
-            return update_material(particles, increment, laws[0], dt)
-        return update_by_number(number - 1, particles, increment, laws[1:], dt)
-
-    return last if len(laws) == 1 else first_or_later
-
-
-def update_materials(particles, increment, laws, dt):
-    """Update stress, plastic strain and volume of a block of particles; return the work of the stresses in J/m.
+def deformed(particles, increment, laws, dt):
+    """Return what an increment makes of particles.
 
     Parameters
     ----------
-    particles : Particles (n,)
-        Modified.
-    increment : ndarray (4, n)
+    particles : Particles
+        Of lanes or floats.
+    increment : tuple of 4
         Displacement gradients ``L dt``: xx, xy, yx, yy.
     laws : tuple of NamedTuple
         Parameters of the law of each material.
     dt : float
         In s.
     """
-    work = 0.0
-    start = 0
-    while start < particles.x.size:
-        stop = end_of_run(particles.material, start)
-        piece = take_block(particles, start, stop)
-        work += update_by_number(particles.material[start], piece, increment[:, start:stop], laws, dt)
-        start = stop
-    return work
+    l_xx, l_xy, l_yx, l_yy = increment
+    shear = 0.5 * (l_xy + l_yx)
+    xx, yy, xy = rotate_stress(particles.stress_xx, particles.stress_yy, particles.stress_xy, 0.5 * (l_xy - l_yx))
+    strength = Strength(
+        particles.cohesion,
+        particles.friction_angle,
+        particles.cohesion_residual,
+        particles.friction_angle_residual,
+    )
+    stress, strain = (xx, yy, particles.stress_zz, xy), (l_xx, l_yy, shear)
+    new_xx, new_yy, new_zz, new_xy, plastic_strain = update_by_material(
+        laws, 0, particles.material, stress, strain, particles.plastic_strain, strength, dt
+    )
+    volume = particles.volume * volume_ratio(l_xx, l_xy, l_yx, l_yy)
+    mean_volume = 0.5 * (volume + particles.volume)
+    work = mean_volume * (0.5 * ((xx + new_xx) * l_xx + (yy + new_yy) * l_yy) + (xy + new_xy) * shear)
+    return Deformed(new_xx, new_yy, new_zz, new_xy, plastic_strain, volume, work)
 
 
-@chosen_by_type(update_materials)
-def _one_or_several(particles: Any, increment: Any, laws: Any, dt: Any) -> Any:
-    def one(particles, increment, laws, dt):
-        return update_material(particles, increment, laws[0], dt)
+def update_by_material(laws, number, material, stress, strain, plastic_strain, strength, dt):
+    """Return stress and plastic strain of particles by the law of their ``material``; the first law has ``number``."""
+    raise NotImplementedError("A kernel's own.")
 
-    return one if len(laws) == 1 else update_materials
+
+@chosen_by_type(update_by_material)
+def _one_or_several(
+    laws: Any, number: Any, material: Any, stress: Any, strain: Any, plastic_strain: Any, strength: Any, dt: Any
+) -> Any:
+    """Types differ from law to law, so the tuple is unrolled. The number of a single material is not even read."""
+
+    def one(laws, number, material, stress, strain, plastic_strain, strength, dt):
+        return update_stress(laws[0], stress, strain, plastic_strain, strength, dt)
+
+    def first_and_others(laws, number, material, stress, strain, plastic_strain, strength, dt):
+        others = update_by_material(laws[1:], number + 1, material, stress, strain, plastic_strain, strength, dt)
+        is_first = material == float(number)
+        if anywhere(is_first):
+            first = update_stress(laws[0], stress, strain, plastic_strain, strength, dt)
+            others = (
+                where(is_first, first[0], others[0]),
+                where(is_first, first[1], others[1]),
+                where(is_first, first[2], others[2]),
+                where(is_first, first[3], others[3]),
+                where(is_first, first[4], others[4]),
+            )
+        return others
+
+    return one if len(laws) == 1 else first_and_others
 
 
 def mobilised_strength(particles: Particles, materials: tuple[Material, ...]) -> tuple[np.ndarray, np.ndarray]:

@@ -18,42 +18,13 @@ energy that gravity gives it.
 """
 
 from solver._jit import inlined
-from solver.cells import pool, read
 
 NO_VOLUME = 1e-12  # m2: an empty cell
 
 
 @inlined
-def pool_dilation(particles, increment, grid):
-    """Add volume and dilation of the block to the cells; ``increment`` (4, n) is the displacement gradient."""
-    for p in range(particles.x.size):
-        dilation = increment[0, p] + increment[3, p]
-        pool(grid.cell_dilation, dilation, particles.volume[p], particles.x[p], particles.y[p], grid)
-
-
-@inlined
-def replace_dilation(particles, increment, grid):
-    """Give the displacement gradients ``increment`` (4, n) of the block the dilation of their cells, in place."""
-    for p in range(particles.x.size):
-        mean = read(grid.cell_dilation, particles.x[p], particles.y[p], grid)
-        correction = 0.5 * (mean - increment[0, p] - increment[3, p])
-        increment[0, p] += correction
-        increment[3, p] += correction
-
-
-@inlined
-def pool_pressure(particles, grid):
-    """Add volume and in-plane mean stress of the block to the cells."""
-    for p in range(particles.x.size):
-        mean_stress = 0.5 * (particles.stress_xx[p] + particles.stress_yy[p])
-        pool(grid.cell_pressure, mean_stress, particles.volume[p], particles.x[p], particles.y[p], grid)
-
-
-@inlined
-def read_pressure(particles, normal_stress, grid):
-    """Fill ``normal_stress`` (2, n), xx and yy in Pa, with those of the block, but with the mean of their cells."""
-    for p in range(particles.x.size):
-        mean = read(grid.cell_pressure, particles.x[p], particles.y[p], grid)
-        half_difference = 0.5 * (particles.stress_xx[p] - particles.stress_yy[p])
-        normal_stress[0, p] = mean + half_difference
-        normal_stress[1, p] = mean - half_difference
+def with_mean_dilation(increment, mean):
+    """Return displacement gradients ``(xx, xy, yx, yy)`` with the dilation ``mean`` of their cells."""
+    xx, xy, yx, yy = increment
+    correction = 0.5 * (mean - xx - yy)
+    return xx + correction, xy, yx, yy + correction

@@ -21,44 +21,38 @@ On the grid: particles are pooled in cells (``cells``), sums of volume and of vo
 smoothed alike (``internal_length`` says how much), and their quotient is read back.
 """
 
-from solver._jit import inlined, kernel
-from solver.cells import average, clear, pool, read
+import numpy as np
 
-
-@inlined
-def add_shifted(target, target_start, source, source_start, count, weight):
-    """Add ``weight`` times ``count`` entries of ``source`` (nodes,) to ``target`` (nodes,), from a start in each."""
-    for i in range(count):
-        target[target_start + i] += weight * source[source_start + i]
-
-
-@inlined
-def smooth(sums, scratch, grid):
-    """Convolve sums over cells with the filter along both axes, in place; beyond the grid there is nothing."""
-    reach = grid.smoothing.size // 2
-    columns = grid.columns
-    scratch[:] = 0.0
-    for j in range(grid.rows):
-        for k in range(-reach, reach + 1):
-            to, start = max(0, -k), max(0, k)
-            add_shifted(
-                scratch, j * columns + to, sums, j * columns + start, columns - to - start, grid.smoothing[k + reach]
-            )
-    sums[:] = 0.0
-    for j in range(grid.rows):
-        for k in range(max(-reach, -j), min(reach, grid.rows - 1 - j) + 1):
-            add_shifted(sums, j * columns, scratch, (j + k) * columns, columns, grid.smoothing[k + reach])
+from solver._jit import kernel
+from solver.constants import LANES
+from solver.lanes import load, store
 
 
 @kernel
-def average_plastic_strain(particles, grid, before):
-    """Replace the increments of plastic strain since ``before`` (n,) by their average over the internal length."""
-    clear(grid.cell_plastic_strain, grid)
-    for p in range(particles.x.size):
-        increment = particles.plastic_strain[p] - before[p]
-        pool(grid.cell_plastic_strain, increment, particles.volume[p], particles.x[p], particles.y[p], grid)
-    smooth(grid.cell_volume, grid.cell_scratch, grid)
-    smooth(grid.cell_plastic_strain, grid.cell_scratch, grid)
-    average(grid.cell_plastic_strain, 0.0, grid)
-    for p in range(particles.x.size):
-        particles.plastic_strain[p] = before[p] + read(grid.cell_plastic_strain, particles.x[p], particles.y[p], grid)
+def smooth(sums, weights):
+    """Convolve sums over cells with the filter along both axes, in place; beyond the grid there is nothing.
+
+    Parameters
+    ----------
+    sums : ndarray (rows, columns)
+    weights : ndarray (2k + 1,)
+        Of the filter, symmetric.
+    """
+    rows, columns = sums.shape
+    reach = weights.size // 2
+    margin = np.zeros(columns + 2 * reach)
+    along = np.empty_like(sums)
+    for row in range(rows):
+        margin[reach : reach + columns] = sums[row]
+        for column in range(0, columns, LANES):
+            total = weights[0] * load(margin, column)
+            for k in range(1, weights.size):
+                total = total + weights[k] * load(margin, column + k)
+            store(along, row * columns + column, total)
+    for row in range(rows):
+        low, high = max(row - reach, 0), min(row + reach, rows - 1)
+        for column in range(0, columns, LANES):
+            total = weights[low - row + reach] * load(along, low * columns + column)
+            for other in range(low + 1, high + 1):
+                total = total + weights[other - row + reach] * load(along, other * columns + column)
+            store(sums, row * columns + column, total)

@@ -1,14 +1,28 @@
-"""The operations of a time step between the transfers, each on all nodes or on a block of particles (see ``step``)."""
-
-import numpy as np
+"""The operations of a time step between the transfers, on all nodes or on a block of eight particles (see ``step``)."""
 
 from solver._jit import inlined
-from solver.boundary import constrain
+from solver.constants import LANES
 from solver.grid import SMALLEST_MASS
-from solver.kinematics import rotate_stress, volume_ratio
-from solver.laws.registry import update_stress
-from solver.softening import Strength
-from solver.transfer import gradient, interpolate, spread_momentum
+from solver.lanes import bits, load, splat, store, where
+from solver.materials import deformed
+from solver.tiles import (
+    MOVED_X,
+    MOVED_Y,
+    PLASTIC_INCREMENT,
+    PLASTIC_STRAIN,
+    STRESS_XX,
+    STRESS_XY,
+    STRESS_YY,
+    STRESS_ZZ,
+    VELOCITY_X,
+    VELOCITY_Y,
+    VOLUME,
+    X,
+    Y,
+    get,
+    note_leavers,
+    put,
+)
 
 INTERNAL_WORK, GRAVITY_WORK = 0, 1  # entries of the energy ledger
 
@@ -16,9 +30,17 @@ INTERNAL_WORK, GRAVITY_WORK = 0, 1  # entries of the energy ledger
 @inlined
 def clear_state(grid):
     """Empty the nodes before the particles spread their state to them."""
-    grid.mass[:] = 0.0
-    grid.momentum[:] = 0.0
-    grid.force[:] = 0.0
+    nothing = splat(0.0)
+    for row in range(grid.rows):
+        for column in range(0, grid.columns, LANES):
+            node = row * grid.columns + column
+            if bits(load(grid.mass, node) > 0.0):
+                x = node + row * grid.columns
+                store(grid.mass, node, nothing)
+                store(grid.momentum, x, nothing)
+                store(grid.momentum, x + grid.columns, nothing)
+                store(grid.force, x, nothing)
+                store(grid.force, x + grid.columns, nothing)
 
 
 @inlined
@@ -36,179 +58,131 @@ def solve_momentum(grid, gravity, damping, dt):
     dt : float
         In s.
     """
-    for i in range(grid.mass.size):
-        has_mass = grid.mass[i] > SMALLEST_MASS
-        inverse = 1.0 / grid.mass[i] if has_mass else 0.0
-        v_x = grid.momentum[i, 0] * inverse
-        v_y = grid.momentum[i, 1] * inverse
-        a_x = grid.force[i, 0] * inverse
-        a_y = grid.force[i, 1] * inverse - (gravity if has_mass else 0.0)
-        a_x -= damping * abs(a_x) * np.sign(v_x)
-        a_y -= damping * abs(a_y) * np.sign(v_y)
-        grid.acceleration[i, 0] = a_x
-        grid.acceleration[i, 1] = a_y
-        grid.velocity[i, 0] = v_x + a_x * dt
-        grid.velocity[i, 1] = v_y + a_y * dt
-        grid.remapped[i, 0] = 0.0
-        grid.remapped[i, 1] = 0.0
-    constrain(grid.acceleration, grid)
-    constrain(grid.velocity, grid)
+    for row in range(grid.rows):
+        for column in range(0, grid.columns, LANES):
+            node = row * grid.columns + column
+            x = node + row * grid.columns
+            mass = load(grid.mass, node)
+            has_mass = mass > SMALLEST_MASS
+            inverse = where(has_mass, 1.0 / mass, 0.0)
+            weight = where(has_mass, splat(gravity), 0.0)
+            _solve(grid, x, load(grid.free_x, node), inverse, 0.0 * weight, damping, dt)
+            _solve(grid, x + grid.columns, load(grid.free_y, node), inverse, weight, damping, dt)
 
 
 @inlined
-def update_velocity(particles, stencil, grid, moved_x, moved_y, flip_fraction, dt):
-    """Accelerate a block of particles and note where they will be at the end of the step.
-
-    Parameters
-    ----------
-    particles : Particles (n,)
-        Their velocities are modified.
-    stencil : Stencil
-        Their weights.
-    grid : Grid
-        With acceleration and velocity solved.
-    moved_x, moved_y : ndarray (n,)
-        Filled with the places in m.
-    flip_fraction : float
-        1 FLIP, 0 PIC.
-    dt : float
-        In s.
-    """
-    for p in range(particles.x.size):
-        a_x, a_y = interpolate(grid.acceleration, stencil, p, grid.columns)
-        v_x, v_y = interpolate(grid.velocity, stencil, p, grid.columns)
-        moved_x[p] = particles.x[p] + v_x * dt
-        moved_y[p] = particles.y[p] + v_y * dt
-        flip_x = particles.velocity_x[p] + a_x * dt
-        flip_y = particles.velocity_y[p] + a_y * dt
-        particles.velocity_x[p] = flip_fraction * flip_x + (1.0 - flip_fraction) * v_x
-        particles.velocity_y[p] = flip_fraction * flip_y + (1.0 - flip_fraction) * v_y
+def _solve(grid, at, free, inverse, gravity, damping, dt):
+    """Solve one component of eight nodes; ``at`` is their flat index in vector fields."""
+    v = load(grid.momentum, at) * inverse
+    a = load(grid.force, at) * inverse - gravity
+    a = a - damping * abs(a) * sign(v)
+    store(grid.acceleration, at, a * free)
+    store(grid.velocity, at, (v + a * dt) * free)
+    store(grid.remapped, at, splat(0.0))
 
 
 @inlined
-def remap_momentum(particles, stencil, grid):
-    """Add the momentum of the accelerated particles to the nodes again."""
-    for p in range(particles.x.size):
-        m = particles.mass[p]
-        momentum_x = m * particles.velocity_x[p]
-        momentum_y = m * particles.velocity_y[p]
-        spread_momentum(grid.remapped, momentum_x, momentum_y, stencil, p, grid.columns)
+def sign(v):
+    """Return 1, 0 or -1."""
+    return where(v > 0.0, splat(1.0), where(v < 0.0, splat(-1.0), 0.0))
 
 
 @inlined
 def remap_velocity(grid):
     """Turn remapped momentum into velocity that respects the walls."""
-    for i in range(grid.mass.size):
-        inverse = 1.0 / grid.mass[i] if grid.mass[i] > SMALLEST_MASS else 0.0
-        grid.remapped[i, 0] *= inverse
-        grid.remapped[i, 1] *= inverse
-    constrain(grid.remapped, grid)
+    for row in range(grid.rows):
+        for column in range(0, grid.columns, LANES):
+            node = row * grid.columns + column
+            mass = load(grid.mass, node)
+            has_mass = mass > SMALLEST_MASS
+            if bits(has_mass):
+                x, y = node + row * grid.columns, node + (row + 1) * grid.columns
+                inverse = where(has_mass, 1.0 / mass, 0.0)
+                store(grid.remapped, x, load(grid.remapped, x) * inverse * load(grid.free_x, node))
+                store(grid.remapped, y, load(grid.remapped, y) * inverse * load(grid.free_y, node))
 
 
 @inlined
-def gather_increments(increment, nodal_velocity, stencil, count, columns, dt):
-    """Fill ``increment`` with the displacement gradients ``L dt`` of a block of particles.
+def accelerate_block(tiles, block, particles, acceleration, velocity, flip_fraction, dt):
+    """Accelerate a block of particles and note where they will be at the end of the step; return their new velocity.
 
     Parameters
     ----------
-    increment : ndarray (4, n)
-        Filled: xx, xy, yx, yy.
-    nodal_velocity : ndarray (nodes, 2)
-        In m/s.
-    stencil : Stencil
-        Weights of the particles.
-    count : int
-        Of the particles, at most ``n``.
-    columns : int
-        Of the grid.
-    dt : float
-        In s.
-    """
-    for p in range(count):
-        xx, xy, yx, yy = gradient(nodal_velocity, stencil, p, columns)
-        increment[0, p] = xx * dt
-        increment[1, p] = xy * dt
-        increment[2, p] = yx * dt
-        increment[3, p] = yy * dt
-
-
-@inlined
-def update_material(particles, increment, law, dt):
-    """Update stress, plastic strain and volume of a block of particles; return the work of the stresses in J/m.
-
-    Parameters
-    ----------
-    particles : Particles (n,)
+    tiles : Tiles
         Modified.
-    increment : ndarray (4, n)
-        Displacement gradients ``L dt``: xx, xy, yx, yy.
-    law : NamedTuple
-        Parameters of their law.
+    block : int
+    particles : Particles
+        Its lanes.
+    acceleration, velocity : tuple of 2 lanes
+        Of the nodes, at the particles; m/s2 and m/s.
+    flip_fraction : float
+        1 FLIP, 0 PIC.
     dt : float
         In s.
     """
-    work = 0.0
-    for p in range(particles.x.size):
-        l_xx = increment[0, p]
-        l_xy = increment[1, p]
-        l_yx = increment[2, p]
-        l_yy = increment[3, p]
-        shear = 0.5 * (l_xy + l_yx)
-        xx, yy, xy = rotate_stress(
-            particles.stress_xx[p], particles.stress_yy[p], particles.stress_xy[p], 0.5 * (l_xy - l_yx)
-        )
-        strength = Strength(
-            particles.cohesion[p],
-            particles.friction_angle[p],
-            particles.cohesion_residual[p],
-            particles.friction_angle_residual[p],
-        )
-        new_xx, new_yy, new_zz, new_xy, plastic_strain = update_stress(
-            law, (xx, yy, particles.stress_zz[p], xy), (l_xx, l_yy, shear), particles.plastic_strain[p], strength, dt
-        )
-        volume = particles.volume[p] * volume_ratio(l_xx, l_xy, l_yx, l_yy)
-        mean_volume = 0.5 * (volume + particles.volume[p])
-        work += mean_volume * (0.5 * ((xx + new_xx) * l_xx + (yy + new_yy) * l_yy) + (xy + new_xy) * shear)
-        particles.stress_xx[p] = new_xx
-        particles.stress_yy[p] = new_yy
-        particles.stress_zz[p] = new_zz
-        particles.stress_xy[p] = new_xy
-        particles.plastic_strain[p] = plastic_strain
-        particles.volume[p] = volume
-    return work
+    is_there = particles.mass > 0.0
+    v_x, v_y = velocity
+    put(tiles, block, MOVED_X, where(is_there, particles.x + v_x * dt, particles.x))
+    put(tiles, block, MOVED_Y, where(is_there, particles.y + v_y * dt, particles.y))
+    flip_x = particles.velocity_x + acceleration[0] * dt
+    flip_y = particles.velocity_y + acceleration[1] * dt
+    new_x = flip_fraction * flip_x + (1.0 - flip_fraction) * v_x
+    new_y = flip_fraction * flip_y + (1.0 - flip_fraction) * v_y
+    put(tiles, block, VELOCITY_X, new_x)
+    put(tiles, block, VELOCITY_Y, new_y)
+    return new_x, new_y
 
 
 @inlined
-def are_inside(x, y, grid):
-    """Return whether every place is finite and within the walls, give or take one cell."""
-    outside = 0
-    for p in range(x.size):
-        in_x = x[p] > -grid.cell_size and x[p] < grid.width + grid.cell_size
-        in_y = y[p] > -grid.cell_size and y[p] < grid.height + grid.cell_size
-        outside += 0 if in_x and in_y else 1
-    return outside == 0
-
-
-@inlined
-def move(particles, moved_x, moved_y, grid, gravity, ledger):
-    """Put a block of particles at their new places and enter the work of gravity; return whether they are inside.
+def deform_block(tiles, block, particles, increment, laws, dt, keeps_plastic_strain):
+    """Update stress, plastic strain and volume of a block of particles; return the work of the stresses (J/m).
 
     Parameters
     ----------
-    particles : Particles (n,)
-        Their places are modified.
-    moved_x, moved_y : ndarray (n,)
-        New places in m.
-    grid : Grid
-    gravity : float
-        Downward, in m/s2.
-    ledger : ndarray (2,)
-        The work of gravity in J/m is added to it.
+    tiles : Tiles
+        Modified.
+    block : int
+    particles : Particles
+        Its lanes.
+    increment : tuple of 4 lanes
+        Displacement gradients ``L dt``: xx, xy, yx, yy.
+    laws : tuple of NamedTuple
+        Parameters of the law of each material.
+    dt : float
+        In s.
+    keeps_plastic_strain : bool
+        The increment of plastic strain is noted, not added: it is to be averaged.
     """
-    fall = 0.0
-    for p in range(particles.x.size):
-        fall += particles.mass[p] * (particles.y[p] - moved_y[p])
-        particles.x[p] = moved_x[p]
-        particles.y[p] = moved_y[p]
-    ledger[GRAVITY_WORK] += gravity * fall
-    return are_inside(particles.x, particles.y, grid)
+    new = deformed(particles, increment, laws, dt)
+    put(tiles, block, STRESS_XX, new.stress_xx)
+    put(tiles, block, STRESS_YY, new.stress_yy)
+    put(tiles, block, STRESS_ZZ, new.stress_zz)
+    put(tiles, block, STRESS_XY, new.stress_xy)
+    put(tiles, block, VOLUME, new.volume)
+    if keeps_plastic_strain:
+        put(tiles, block, PLASTIC_INCREMENT, new.plastic_strain - particles.plastic_strain)
+    else:
+        put(tiles, block, PLASTIC_STRAIN, new.plastic_strain)
+    return new.work
+
+
+@inlined
+def move_block(tiles, block, particles, row, column, grid):
+    """Put a block of particles at their new places; return their loss of height times mass in kg, lane by lane.
+
+    Parameters
+    ----------
+    tiles : Tiles
+        Modified; particles that leave their base cells are noted.
+    block : int
+    particles : Particles
+        Its lanes.
+    row, column : int
+        Of the base cell of the first lane.
+    grid : Grid
+    """
+    x, y = get(tiles, block, MOVED_X), get(tiles, block, MOVED_Y)
+    put(tiles, block, X, x)
+    put(tiles, block, Y, y)
+    note_leavers(tiles, block, x, y, particles.mass > 0.0, row, column, grid)
+    return particles.mass * (particles.y - y)

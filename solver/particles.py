@@ -4,8 +4,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solver._jit import inlined
-
 
 class Particles(NamedTuple):
     """State of ``n`` particles, one contiguous array a component; per metre run out of plane."""
@@ -64,26 +62,3 @@ def assign_material(particles: Particles, where: np.ndarray, number: int, densit
 def copy_particles(particles: Particles) -> Particles:
     """Return an independent copy."""
     return Particles(*(array.copy() for array in particles))
-
-
-@inlined
-def take_block(particles, start, stop):
-    """Return the particles from ``start`` to ``stop`` as views."""
-    return Particles(
-        particles.x[start:stop],
-        particles.y[start:stop],
-        particles.velocity_x[start:stop],
-        particles.velocity_y[start:stop],
-        particles.mass[start:stop],
-        particles.volume[start:stop],
-        particles.stress_xx[start:stop],
-        particles.stress_yy[start:stop],
-        particles.stress_zz[start:stop],
-        particles.stress_xy[start:stop],
-        particles.plastic_strain[start:stop],
-        particles.cohesion[start:stop],
-        particles.friction_angle[start:stop],
-        particles.cohesion_residual[start:stop],
-        particles.friction_angle_residual[start:stop],
-        particles.material[start:stop],
-    )

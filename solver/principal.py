@@ -3,6 +3,7 @@
 import math
 
 from solver._jit import point
+from solver.lanes import where
 
 _TINY = 1e-30
 
@@ -21,8 +22,8 @@ def principal_stresses(stress):
     mean, _, radius = in_plane(stress)
     zz = stress[2]
     high, low = mean + radius, mean - radius
-    s1 = max(high, zz)
-    s3 = min(low, zz)
+    s1 = max(zz, high)  # a NaN in zz stays
+    s3 = min(zz, low)
     return s1, high + low + zz - s1 - s3, s3
 
 
@@ -35,9 +36,9 @@ def relaxed(stress, drop_1, drop_2, drop_3):
     xx, yy, zz, xy = stress
     mean, half_difference, radius = in_plane(stress)
     high, low = mean + radius, mean - radius
-    drop_high = drop_2 if zz > high else drop_1
-    drop_low = drop_2 if zz < low else drop_3
-    drop_zz = drop_1 if zz > high else (drop_3 if zz < low else drop_2)
+    drop_high = where(zz > high, drop_2, drop_1)
+    drop_low = where(zz < low, drop_2, drop_3)
+    drop_zz = where(zz > high, drop_1, where(zz < low, drop_3, drop_2))
     drop_mean = 0.5 * (drop_high + drop_low)
     shrink = 0.5 * (drop_high - drop_low) / max(radius, _TINY)
     return (
@@ -52,5 +53,6 @@ def relaxed(stress, drop_1, drop_2, drop_3):
 def equivalent_plastic_strain(drop_1, drop_2, drop_3, shear):
     """Return ``sqrt(2/3 e:e)`` of the plastic strain that relaxed the principal stresses by ``drop`` (Pa)."""
     mean = (drop_1 + drop_2 + drop_3) / 3.0
-    squares = (drop_1 - mean) ** 2 + (drop_2 - mean) ** 2 + (drop_3 - mean) ** 2
+    off_1, off_2, off_3 = drop_1 - mean, drop_2 - mean, drop_3 - mean
+    squares = off_1 * off_1 + off_2 * off_2 + off_3 * off_3
     return math.sqrt(squares * (2.0 / 3.0)) / (2.0 * shear)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 from solver.method import Method
 
 STRESS_UPDATES = {"musl": 0, "usl": 1, "usf": 2}
-USL, USF = STRESS_UPDATES["usl"], STRESS_UPDATES["usf"]
+MUSL, USL, USF = (STRESS_UPDATES[name] for name in ("musl", "usl", "usf"))
 
 LOCKING = {"none": 0, "cell-average": 1}
 CELL_AVERAGE = LOCKING["cell-average"]

@@ -10,193 +10,357 @@ The modified update-stress-last step (MUSL; Sulsky, Zhou and Schreyer 1995, Nair
     5  L_p = v_i (x) grad S_ip,  sigma_p <- law(sigma_p, L_p dt),  V_p               update_materials
     6  x_p <- x_p + S_ip v_i(2) dt                                                   move
 
-Update-stress-last (USL) leaves out 4; update-stress-first (USF) moves before 4. A step is two passes over the
-particles, one for 3 and 4, one for 5, 6 and 1 of the next step, in blocks small enough for the first-level cache. Cell
-averages against locking (``mean_dilation``) need all particles at two places, which cuts the second pass in three;
-averaged plastic strain (``nonlocal_softening``) follows as a pass of its own. The operations are in ``operations`` and
+Update-stress-last (USL) leaves out 4; update-stress-first (USF) moves before 4. Particles are in blocks of eight
+(``tiles``) that are treated at once (``lanes``). A step is two passes over the tiles, one for 3 and 4, one for 5, 6 and
+1 of the next step. Means over cells, against locking (``mean_dilation``) or of the plastic strain that softens
+(``nonlocal_softening``), need all particles at two places, which cuts the second pass in three. The few particles that
+leave their tile in a step bring what they have to the grid one by one. The operations are in ``operations`` and
 ``transfer``; here they are put together.
 
-All kernels take ``particles`` (n,), the nodes of ``grid`` and scratch arrays ``work``, and modify them; ``laws``, a
-tuple with the parameters of each material; a ``scheme``; gravity downward in m/s2; ``dt`` in s.
+All kernels take the ``tiles`` of the particles and the nodes of ``grid``, and modify them; ``laws``, a tuple with the
+parameters of each material; a ``scheme``; gravity downward in m/s2; ``dt`` in s.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from solver._jit import kernel
-from solver.basis import Stencil, allocate_stencil, evaluate_stencil
-from solver.cells import average, clear
-from solver.materials import update_materials
-from solver.mean_dilation import NO_VOLUME, pool_dilation, pool_pressure, read_pressure, replace_dilation
-from solver.nonlocal_softening import average_plastic_strain
+from solver._jit import inlined, kernel
+from solver.cells import (
+    add_to_pool,
+    average,
+    deposit_pool,
+    no_pool,
+    read,
+    shares_of,
+    volumes_in,
+)
+from solver.lanes import splat, total
+from solver.mean_dilation import NO_VOLUME, with_mean_dilation
+from solver.nonlocal_softening import smooth
 from solver.operations import (
+    GRAVITY_WORK,
     INTERNAL_WORK,
-    are_inside,
+    accelerate_block,
     clear_state,
-    gather_increments,
-    move,
-    remap_momentum,
+    deform_block,
+    move_block,
     remap_velocity,
     solve_momentum,
-    update_velocity,
 )
-from solver.particles import take_block
-from solver.scheme import CELL_AVERAGE, USF, USL
-from solver.transfer import particle_to_grid, spread_mass
+from solver.scheme import CELL_AVERAGE, MUSL, USF, USL
+from solver.tiles import (
+    INCREMENT_XX,
+    INCREMENT_XY,
+    INCREMENT_YX,
+    INCREMENT_YY,
+    PLASTIC_INCREMENT,
+    PLASTIC_STRAIN,
+    USED,
+    TileStore,
+    allocate_tiles,
+    change_tiles,
+    empty_tiles,
+    fill_tiles,
+    get,
+    is_on_grid,
+    place_of,
+    put,
+    sort_again,
+    take,
+)
+from solver.transfer import (
+    add_momentum,
+    add_state,
+    deposit_momentum,
+    deposit_state,
+    gradient,
+    interpolate,
+    load_of,
+    no_momentum,
+    no_state,
+    weights_of,
+)
 
-BLOCK = 128
+STEPS_BETWEEN_SORTS = 64
 
 
 class Workspace(NamedTuple):
-    """Scratch arrays of a march, and the energy ledger it keeps."""
+    """Room for the tiles of a march, and the energy ledger it keeps."""
 
-    stencil: Stencil
-    increment: np.ndarray  # (4, BLOCK) displacement gradient increments L dt: xx, xy, yx, yy
-    normal_stress: np.ndarray  # (2, BLOCK) Pa, xx and yy with the mean of their cells
-    increments: np.ndarray  # (blocks, 4, BLOCK) the same of all particles, where cells are averaged
-    moved_x: np.ndarray  # (n,) m, places at the end of the step
-    moved_y: np.ndarray  # (n,) m
-    plastic_strain: np.ndarray  # (n,) at the start of the step, where its increments are averaged
+    tiles: TileStore
     ledger: np.ndarray  # (2,) J/m: work of the stresses, work of gravity
 
 
 def allocate_workspace(n_particles: int) -> Workspace:
     """Return scratch space for ``n_particles`` with an empty ledger."""
-    return Workspace(
-        stencil=allocate_stencil(BLOCK),
-        increment=np.empty((4, BLOCK)),
-        normal_stress=np.empty((2, BLOCK)),
-        increments=np.empty((-(-n_particles // BLOCK), 4, BLOCK)),
-        moved_x=np.empty(n_particles),
-        moved_y=np.empty(n_particles),
-        plastic_strain=np.empty(n_particles),
-        ledger=np.zeros(2),
-    )
+    return Workspace(allocate_tiles(n_particles), np.zeros(2))
+
+
+@inlined
+def pools(scheme):
+    """Return whether particles read means over cells."""
+    return scheme.locking == CELL_AVERAGE or scheme.averages_plastic_strain
+
+
+@inlined
+def own_mean_stress(particles):
+    """Return the in-plane mean stress of particles in Pa."""
+    return 0.5 * (particles.stress_xx + particles.stress_yy)
+
+
+@inlined
+def spread_tile(tiles, tile, grid, scheme):
+    """Operation 1 for a tile; with means over cells, which it reads, in the internal force and the plastic strain."""
+    row, column = place_of(tile, grid)
+    low = middle = high = no_state()
+    block = tiles.first[tile]
+    while block >= 0:
+        p = take(tiles, block)
+        w = weights_of(p.x, p.y, row, column, grid)
+        mean_stress = own_mean_stress(p)
+        if pools(scheme):
+            shares = shares_of(p.x, p.y, row, column, grid)
+            if scheme.locking == CELL_AVERAGE:
+                mean_stress = read(grid.cell_pressure, row, column, shares, grid)
+            if scheme.averages_plastic_strain:
+                increment = read(grid.cell_plastic_strain, row, column, shares, grid)
+                put(tiles, block, PLASTIC_STRAIN, p.plastic_strain + increment)
+        brought = load_of(p, mean_stress)
+        low = add_state(low, w, 0, brought)
+        middle = add_state(middle, w, 1, brought)
+        high = add_state(high, w, 2, brought)
+        block = tiles.following[block]
+    deposit_state(grid, row, column, low)
+    deposit_state(grid, row + 1, column, middle)
+    deposit_state(grid, row + 2, column, high)
+
+
+@inlined
+def pool_tile(tiles, tile, grid):
+    """Collect volume, pressure and increment of plastic strain of the cells from a tile."""
+    row, column = place_of(tile, grid)
+    volume = pressure = strain = no_pool()
+    block = tiles.first[tile]
+    while block >= 0:
+        p = take(tiles, block)
+        volumes = volumes_in(shares_of(p.x, p.y, row, column, grid), p.volume)
+        volume = add_to_pool(volume, volumes, 1.0)
+        pressure = add_to_pool(pressure, volumes, own_mean_stress(p))
+        strain = add_to_pool(strain, volumes, get(tiles, block, PLASTIC_INCREMENT))
+        block = tiles.following[block]
+    deposit_pool(grid.cell_volume, row, column, volume, grid)
+    deposit_pool(grid.cell_pressure, row, column, pressure, grid)
+    deposit_pool(grid.cell_plastic_strain, row, column, strain, grid)
 
 
 @kernel
-def spread_all(particles, grid, work):
+def pool_all(tiles, grid, scheme):
+    """Find the means over cells: of the pressure, and of the increments of plastic strain."""
+    grid.cell_volume[:] = 0.0
+    grid.cell_pressure[:] = 0.0
+    grid.cell_plastic_strain[:] = 0.0
+    for tile in range(tiles.first.size):
+        if tiles.first[tile] >= 0:
+            pool_tile(tiles, tile, grid)
+    average(grid.cell_pressure, grid.cell_volume, NO_VOLUME)
+    if scheme.averages_plastic_strain:
+        smooth(grid.cell_volume, grid.smoothing)
+        smooth(grid.cell_plastic_strain, grid.smoothing)
+        average(grid.cell_plastic_strain, grid.cell_volume, 0.0)
+
+
+@kernel
+def spread_each(tiles, grid, scheme):
+    """Operation 1 for all particles, with the means that the cells have."""
+    clear_state(grid)
+    for tile in range(tiles.first.size):
+        if tiles.first[tile] >= 0:
+            spread_tile(tiles, tile, grid, scheme)
+
+
+@kernel
+def spread_all(tiles, grid, scheme):
     """Operation 1 for all particles."""
-    clear_state(grid)
-    for start in range(0, particles.x.size, BLOCK):
-        block = take_block(particles, start, start + BLOCK)
-        evaluate_stencil(work.stencil, block.x, block.y, grid)
-        particle_to_grid(block, block.stress_xx, block.stress_yy, block.stress_xy, work.stencil, grid)
+    if pools(scheme):
+        pool_all(tiles, grid, scheme)
+    spread_each(tiles, grid, scheme)
 
 
 @kernel
-def pool_all_pressure(particles, grid):
-    """Collect the pressure of the cells from all particles."""
-    clear(grid.cell_pressure, grid)
-    for start in range(0, particles.x.size, BLOCK):
-        pool_pressure(take_block(particles, start, start + BLOCK), grid)
+def accelerate_each(tiles, grid, scheme, dt):
+    """Operation 3, and the transfer of 4 where the stress is updated last, modified."""
+    remaps = scheme.stress_update == MUSL
+    for tile in range(tiles.first.size):
+        block = tiles.first[tile]
+        if block < 0:
+            continue
+        row, column = place_of(tile, grid)
+        low = middle = high = no_momentum()
+        while block >= 0:
+            p = take(tiles, block)
+            w = weights_of(p.x, p.y, row, column, grid)
+            acceleration = interpolate(grid.acceleration, row, column, w, grid)
+            velocity = interpolate(grid.velocity, row, column, w, grid)
+            v_x, v_y = accelerate_block(tiles, block, p, acceleration, velocity, scheme.flip_fraction, dt)
+            low = add_momentum(low, w, 0, p.mass * v_x, p.mass * v_y)
+            middle = add_momentum(middle, w, 1, p.mass * v_x, p.mass * v_y)
+            high = add_momentum(high, w, 2, p.mass * v_x, p.mass * v_y)
+            block = tiles.following[block]
+        if remaps:
+            deposit_momentum(grid.remapped, row, column, low, grid)
+            deposit_momentum(grid.remapped, row + 1, column, middle, grid)
+            deposit_momentum(grid.remapped, row + 2, column, high, grid)
 
 
 @kernel
-def spread_all_with_cell_pressure(particles, grid, work):
-    """Operation 1 for all particles, with the pooled pressure of the cells in the internal force."""
-    average(grid.cell_pressure, NO_VOLUME, grid)
-    clear_state(grid)
-    for start in range(0, particles.x.size, BLOCK):
-        block = take_block(particles, start, start + BLOCK)
-        evaluate_stencil(work.stencil, block.x, block.y, grid)
-        read_pressure(block, work.normal_stress, grid)
-        particle_to_grid(block, work.normal_stress[0], work.normal_stress[1], block.stress_xy, work.stencil, grid)
+def move_each(tiles, grid, gravity, ledger):
+    """Operation 6 for all particles; return whether all are on the grid."""
+    for tile in range(tiles.first.size):
+        row, column = place_of(tile, grid)
+        block = tiles.first[tile]
+        while block >= 0:
+            fall = move_block(tiles, block, take(tiles, block), row, column, grid)
+            ledger[GRAVITY_WORK] += gravity * total(fall)
+            block = tiles.following[block]
+    return change_tiles(tiles, grid)
 
 
 @kernel
-def spread_first(particles, grid, work, scheme):
-    """Operation 1 of the first step."""
-    if scheme.locking == CELL_AVERAGE:
-        pool_all_pressure(particles, grid)
-        spread_all_with_cell_pressure(particles, grid, work)
-    else:
-        spread_all(particles, grid, work)
-
-
-@kernel
-def accelerate(particles, grid, work, scheme, gravity, dt):
-    """Operations 3 and 4, the first pass over the particles; return whether all are inside."""
-    move_first = scheme.stress_update == USF
-    if move_first:
-        grid.mass[:] = 0.0
-    for start in range(0, particles.x.size, BLOCK):
-        stop = start + BLOCK
-        block = take_block(particles, start, stop)
-        moved_x = work.moved_x[start:stop]
-        moved_y = work.moved_y[start:stop]
-        evaluate_stencil(work.stencil, block.x, block.y, grid)
-        update_velocity(block, work.stencil, grid, moved_x, moved_y, scheme.flip_fraction, dt)
-        if move_first:
-            if not move(block, moved_x, moved_y, grid, gravity, work.ledger):
-                return False
-            evaluate_stencil(work.stencil, block.x, block.y, grid)
-            spread_mass(block, work.stencil, grid)
-        if scheme.stress_update != USL:
-            remap_momentum(block, work.stencil, grid)
+def accelerate(tiles, grid, work, scheme, gravity, dt):
+    """Operations 3 and 4; return whether all particles are on the grid."""
+    accelerate_each(tiles, grid, scheme, dt)
+    if scheme.stress_update == USF:
+        if not move_each(tiles, grid, gravity, work.ledger):
+            return False
+        spread_each(tiles, grid, scheme)
+        grid.remapped[:] = grid.momentum
     remap_velocity(grid)
     return True
 
 
+@inlined
+def displacement_gradients(nodal_velocity, row, column, w, grid, dt):
+    """Return ``L dt`` of a block: xx, xy, yx, yy."""
+    xx, xy, yx, yy = gradient(nodal_velocity, row, column, w, grid)
+    return xx * dt, xy * dt, yx * dt, yy * dt
+
+
+@inlined
+def enter(ledger, done, gravity, fall):
+    """Enter the work of the stresses (J/m) and the loss of height times mass (kg) of the lanes in the ledger."""
+    ledger[INTERNAL_WORK] += total(done)
+    ledger[GRAVITY_WORK] += gravity * total(fall)
+
+
+@inlined
+def deform_tile(tiles, tile, nodal_velocity, grid, work, laws, moves, gravity, dt):
+    """Operations 5 and 6 for a tile."""
+    row, column = place_of(tile, grid)
+    done = fall = splat(0.0)
+    block = tiles.first[tile]
+    while block >= 0:
+        p = take(tiles, block)
+        w = weights_of(p.x, p.y, row, column, grid)
+        increment = displacement_gradients(nodal_velocity, row, column, w, grid, dt)
+        done = done + deform_block(tiles, block, p, increment, laws, dt, False)
+        if moves:
+            fall = fall + move_block(tiles, block, p, row, column, grid)
+        block = tiles.following[block]
+    enter(work.ledger, done, gravity, fall)
+
+
 @kernel
-def deform_each(particles, grid, work, laws, scheme, gravity, dt):
-    """Operations 5 and 6, and 1 of the next step, in one pass; return whether all are inside."""
-    nodal_velocity = grid.velocity if scheme.stress_update == USL else grid.remapped
-    clear_state(grid)
-    for start in range(0, particles.x.size, BLOCK):
-        stop = start + BLOCK
-        block = take_block(particles, start, stop)
-        evaluate_stencil(work.stencil, block.x, block.y, grid)
-        gather_increments(work.increment, nodal_velocity, work.stencil, block.x.size, grid.columns, dt)
-        work.ledger[INTERNAL_WORK] += update_materials(block, work.increment, laws, dt)
+def deform_each(tiles, grid, work, laws, scheme, nodal_velocity, gravity, dt):
+    """Operations 5 and 6."""
+    moves = scheme.stress_update != USF
+    for tile in range(tiles.first.size):
+        if tiles.first[tile] >= 0:
+            deform_tile(tiles, tile, nodal_velocity, grid, work, laws, moves, gravity, dt)
+
+
+@inlined
+def dilate_tile(tiles, tile, nodal_velocity, grid, dt):
+    """Keep the displacement gradients of a tile, and collect volume and dilation of the cells."""
+    row, column = place_of(tile, grid)
+    volume = dilation = no_pool()
+    block = tiles.first[tile]
+    while block >= 0:
+        p = take(tiles, block)
+        w = weights_of(p.x, p.y, row, column, grid)
+        xx, xy, yx, yy = displacement_gradients(nodal_velocity, row, column, w, grid, dt)
+        put(tiles, block, INCREMENT_XX, xx)
+        put(tiles, block, INCREMENT_XY, xy)
+        put(tiles, block, INCREMENT_YX, yx)
+        put(tiles, block, INCREMENT_YY, yy)
+        volumes = volumes_in(shares_of(p.x, p.y, row, column, grid), p.volume)
+        volume = add_to_pool(volume, volumes, 1.0)
+        dilation = add_to_pool(dilation, volumes, xx + yy)
+        block = tiles.following[block]
+    deposit_pool(grid.cell_volume, row, column, volume, grid)
+    deposit_pool(grid.cell_dilation, row, column, dilation, grid)
+
+
+@inlined
+def yield_tile(tiles, tile, grid, work, laws, scheme, gravity, dt):
+    """Operations 5 and 6 for a tile, with the dilation of its cells."""
+    row, column = place_of(tile, grid)
+    done = fall = splat(0.0)
+    block = tiles.first[tile]
+    while block >= 0:
+        p = take(tiles, block)
+        increment = (
+            get(tiles, block, INCREMENT_XX),
+            get(tiles, block, INCREMENT_XY),
+            get(tiles, block, INCREMENT_YX),
+            get(tiles, block, INCREMENT_YY),
+        )
+        if scheme.locking == CELL_AVERAGE:
+            shares = shares_of(p.x, p.y, row, column, grid)
+            increment = with_mean_dilation(increment, read(grid.cell_dilation, row, column, shares, grid))
+        averages = scheme.averages_plastic_strain
+        done = done + deform_block(tiles, block, p, increment, laws, dt, averages)
         if scheme.stress_update != USF:
-            if not move(block, work.moved_x[start:stop], work.moved_y[start:stop], grid, gravity, work.ledger):
-                return False
-            evaluate_stencil(work.stencil, block.x, block.y, grid)
-        particle_to_grid(block, block.stress_xx, block.stress_yy, block.stress_xy, work.stencil, grid)
-    return True
+            fall = fall + move_block(tiles, block, p, row, column, grid)
+        block = tiles.following[block]
+    enter(work.ledger, done, gravity, fall)
 
 
 @kernel
-def deform_cells(particles, grid, work, laws, scheme, gravity, dt):
-    """Do the same with the dilation and the pressure of cells, in three passes; return whether all are inside."""
+def deform_cells(tiles, grid, work, laws, scheme, nodal_velocity, gravity, dt):
+    """Operations 5 and 6 with the dilation of the cells."""
+    grid.cell_volume[:] = 0.0
+    grid.cell_dilation[:] = 0.0
+    for tile in range(tiles.first.size):
+        if tiles.first[tile] >= 0:
+            dilate_tile(tiles, tile, nodal_velocity, grid, dt)
+    average(grid.cell_dilation, grid.cell_volume, NO_VOLUME)
+    for tile in range(tiles.first.size):
+        if tiles.first[tile] >= 0:
+            yield_tile(tiles, tile, grid, work, laws, scheme, gravity, dt)
+
+
+@kernel
+def deform(tiles, grid, work, laws, scheme, gravity, dt):
+    """Operations 5 and 6, and 1 of the next step; return whether all particles are on the grid."""
     nodal_velocity = grid.velocity if scheme.stress_update == USL else grid.remapped
-    clear(grid.cell_dilation, grid)
-    for start in range(0, particles.x.size, BLOCK):
-        block = take_block(particles, start, start + BLOCK)
-        increment = work.increments[start // BLOCK]
-        evaluate_stencil(work.stencil, block.x, block.y, grid)
-        gather_increments(increment, nodal_velocity, work.stencil, block.x.size, grid.columns, dt)
-        pool_dilation(block, increment, grid)
-    average(grid.cell_dilation, NO_VOLUME, grid)
-    clear(grid.cell_pressure, grid)
-    for start in range(0, particles.x.size, BLOCK):
-        stop = start + BLOCK
-        block = take_block(particles, start, stop)
-        increment = work.increments[start // BLOCK]
-        replace_dilation(block, increment, grid)
-        work.ledger[INTERNAL_WORK] += update_materials(block, increment, laws, dt)
-        moves = scheme.stress_update != USF
-        if moves and not move(block, work.moved_x[start:stop], work.moved_y[start:stop], grid, gravity, work.ledger):
-            return False
-        pool_pressure(block, grid)
-    spread_all_with_cell_pressure(particles, grid, work)
+    if pools(scheme):
+        deform_cells(tiles, grid, work, laws, scheme, nodal_velocity, gravity, dt)
+    else:
+        deform_each(tiles, grid, work, laws, scheme, nodal_velocity, gravity, dt)
+    if not change_tiles(tiles, grid):
+        return False
+    spread_all(tiles, grid, scheme)
     return True
 
 
 @kernel
-def deform(particles, grid, work, laws, scheme, gravity, dt):
-    """Operations 5 and 6, and 1 of the next step; return whether all are inside."""
-    if scheme.averages_plastic_strain:
-        work.plastic_strain[:] = particles.plastic_strain
-    if scheme.locking == CELL_AVERAGE:
-        are_all_inside = deform_cells(particles, grid, work, laws, scheme, gravity, dt)
-    else:
-        are_all_inside = deform_each(particles, grid, work, laws, scheme, gravity, dt)
-    if scheme.averages_plastic_strain and are_all_inside:
-        average_plastic_strain(particles, grid, work.plastic_strain)
-    return are_all_inside
+def are_on_grid(particles, grid):
+    """Return whether the nodes of all particles exist."""
+    outside = 0
+    for p in range(particles.x.size):
+        outside += 0 if is_on_grid(particles.x[p], particles.y[p], grid) else 1
+    return outside == 0
 
 
 @kernel
@@ -206,6 +370,7 @@ def advance(particles, grid, work, laws, scheme, gravity, gravity_rate, dt, step
     Parameters
     ----------
     particles : Particles (n,)
+        Modified.
     grid : Grid
         Afterwards its mass, momentum and force are those of the particles.
     work : Workspace
@@ -219,14 +384,18 @@ def advance(particles, grid, work, laws, scheme, gravity, gravity_rate, dt, step
         In s.
     steps : int
     """
-    if not are_inside(particles.x, particles.y, grid):
+    if not are_on_grid(particles, grid):
         return 0
-    spread_first(particles, grid, work, scheme)
-    for step in range(steps):
-        g = gravity + gravity_rate * (step + 0.5) * dt
+    tiles = fill_tiles(particles, grid, work.tiles)
+    spread_all(tiles, grid, scheme)
+    taken = 0
+    are_all_there = True
+    while taken < steps and are_all_there:
+        if taken % STEPS_BETWEEN_SORTS == STEPS_BETWEEN_SORTS - 1 or tiles.counts[USED] > particles.x.size:
+            tiles = sort_again(tiles, particles, grid, work.tiles)
+        g = gravity + gravity_rate * (taken + 0.5) * dt
         solve_momentum(grid, g, scheme.damping, dt)
-        if not accelerate(particles, grid, work, scheme, g, dt):
-            return step
-        if not deform(particles, grid, work, laws, scheme, g, dt):
-            return step
-    return steps
+        are_all_there = accelerate(tiles, grid, work, scheme, g, dt) and deform(tiles, grid, work, laws, scheme, g, dt)
+        taken += are_all_there
+    empty_tiles(tiles, particles)
+    return taken

@@ -1,104 +1,179 @@
-"""Between particles and grid. Each function takes a block of particles and the stencil of their present places."""
+"""Between particles and nodes.
+
+Every function is of a block of particles whose base cells are at ``row``, from ``column`` on (``tiles``); weights and
+values are lanes. In a vector field ``(rows, 2, columns)`` the components of a row are ``columns`` apart.
+"""
+
+from typing import NamedTuple
 
 from solver._jit import inlined
+from solver.basis import weight_and_gradient
+from solver.lanes import WIDTH, lane_numbers, load, spill_1, spill_2, splat, store, up_1, up_2
+
+
+class Weights(NamedTuple):
+    """What particles are to their 3 x 3 nodes, factorised by direction; each has three entries."""
+
+    sx: tuple[float, float, float]
+    gx: tuple[float, float, float]  # d/dx, 1/m
+    sy: tuple[float, float, float]
+    gy: tuple[float, float, float]  # d/dy, 1/m
 
 
 @inlined
-def three(values, p):
-    """Return the column ``p`` of a stencil array in registers, where stores to the grid cannot touch it."""
-    return values[0, p], values[1, p], values[2, p]
+def weights_of(x, y, row, column, grid):
+    """Return the weights of a block of particles at ``x``, ``y`` (m)."""
+    inverse_cell = 1.0 / grid.cell_size
+    first = lane_numbers() + float(column)
+    sx, gx = weight_and_gradient((x - grid.origin) * inverse_cell - first, grid.half_length, inverse_cell)
+    sy, gy = weight_and_gradient((y - grid.origin) * inverse_cell - float(row), grid.half_length, inverse_cell)
+    return Weights(sx, gx, sy, gy)
 
 
 @inlined
-def particle_to_grid(particles, stress_xx, stress_yy, stress_xy, stencil, grid):
-    """Add mass, momentum and internal force of a block of particles to the nodes.
+def three(field, start, s):
+    """Return ``sum_i s_i field_i`` over three neighbouring nodes of a row."""
+    return s[0] * load(field, start) + s[1] * load(field, start + 1) + s[2] * load(field, start + 2)
+
+
+@inlined
+def nine(field, start, stride, sx, sy):
+    """Return ``sum_i S_ip field_i`` over 3 x 3 nodes, whose rows are ``stride`` apart."""
+    return (
+        sy[0] * three(field, start, sx)
+        + sy[1] * three(field, start + stride, sx)
+        + sy[2] * three(field, start + 2 * stride, sx)
+    )
+
+
+@inlined
+def interpolate(field, row, column, w, grid):
+    """Return ``sum_i S_ip field_i`` of a vector field ``(rows, 2, columns)``, as (x, y)."""
+    start = 2 * row * grid.columns + column
+    return (
+        nine(field, start, 2 * grid.columns, w.sx, w.sy),
+        nine(field, start + grid.columns, 2 * grid.columns, w.sx, w.sy),
+    )
+
+
+@inlined
+def gradient(field, row, column, w, grid):
+    """Return ``sum_i field_i (x) grad S_ip`` of a vector field ``(rows, 2, columns)``, as (xx, xy, yx, yy)."""
+    start = 2 * row * grid.columns + column
+    stride = 2 * grid.columns
+    return (
+        nine(field, start, stride, w.gx, w.sy),
+        nine(field, start, stride, w.sx, w.gy),
+        nine(field, start + grid.columns, stride, w.gx, w.sy),
+        nine(field, start + grid.columns, stride, w.sx, w.gy),
+    )
+
+
+@inlined
+def nothing():
+    """Return sums of three neighbouring nodes that are zero."""
+    return splat(0.0), splat(0.0), splat(0.0)
+
+
+@inlined
+def plus(sums, s, value):
+    """Return the sums of three neighbouring nodes with ``s_i value`` added to each."""
+    return sums[0] + s[0] * value, sums[1] + s[1] * value, sums[2] + s[2] * value
+
+
+@inlined
+def deposit(field, start, sums):
+    """Add the sums of the three nodes of each lane to a row of nodes, from the flat index ``start`` on."""
+    store(field, start, load(field, start) + (sums[0] + up_1(sums[1]) + up_2(sums[2])))
+    store(field, start + WIDTH, load(field, start + WIDTH) + (spill_1(sums[1]) + spill_2(sums[2])))
+
+
+class Momentum(NamedTuple):
+    """Momentum of three neighbouring nodes."""
+
+    x: tuple[float, float, float]
+    y: tuple[float, float, float]
+
+
+@inlined
+def no_momentum():
+    """Return sums that are zero."""
+    return Momentum(nothing(), nothing())
+
+
+@inlined
+def add_momentum(sums, w, j, momentum_x, momentum_y):
+    """Return the sums of the ``j``-th row of nodes with ``S_ip m_p v_p`` added."""
+    return Momentum(plus(sums.x, w.sx, w.sy[j] * momentum_x), plus(sums.y, w.sx, w.sy[j] * momentum_y))
+
+
+@inlined
+def deposit_momentum(field, row, column, sums, grid):
+    """Add the sums of a row of nodes to a vector field ``(rows, 2, columns)``."""
+    start = 2 * row * grid.columns + column
+    deposit(field, start, sums.x)
+    deposit(field, start + grid.columns, sums.y)
+
+
+class State(NamedTuple):
+    """Mass, momentum and internal force of three neighbouring nodes."""
+
+    mass: tuple[float, float, float]
+    momentum: Momentum
+    force: Momentum
+
+
+@inlined
+def no_state():
+    """Return sums that are zero."""
+    return State(nothing(), no_momentum(), no_momentum())
+
+
+class Load(NamedTuple):
+    """What particles bring to their nodes."""
+
+    mass: float  # kg/m
+    momentum_x: float  # kg/s
+    momentum_y: float
+    xx: float  # N: minus volume times the stress that pushes the nodes
+    yy: float
+    xy: float
+
+
+@inlined
+def load_of(particles, mean_stress):
+    """Return the load of particles, with ``mean_stress`` (Pa) as the in-plane mean of their stress."""
+    half_difference = 0.5 * (particles.stress_xx - particles.stress_yy)
+    return Load(
+        particles.mass,
+        particles.mass * particles.velocity_x,
+        particles.mass * particles.velocity_y,
+        -particles.volume * (mean_stress + half_difference),
+        -particles.volume * (mean_stress - half_difference),
+        -particles.volume * particles.stress_xy,
+    )
+
+
+@inlined
+def add_state(sums, w, j, brought):
+    """Return the sums of the ``j``-th row of nodes with what particles bring.
 
     ``m_i += S_ip m_p``, ``(mv)_i += S_ip m_p v_p``, ``f_i -= V_p sigma_p . grad S_ip``.
-
-    Parameters
-    ----------
-    particles : Particles (n,)
-    stress_xx, stress_yy, stress_xy : ndarray (n,)
-        The stress in Pa that pushes the nodes: that of the particles, or what takes its place.
-    stencil : Stencil
-        Weights of the particles.
-    grid : Grid
-        Its ``mass``, ``momentum`` and ``force`` are modified.
     """
-    for p in range(particles.x.size):
-        mass = particles.mass[p]
-        momentum_x = mass * particles.velocity_x[p]
-        momentum_y = mass * particles.velocity_y[p]
-        xx = -particles.volume[p] * stress_xx[p]
-        yy = -particles.volume[p] * stress_yy[p]
-        xy = -particles.volume[p] * stress_xy[p]
-        first = stencil.node[p]
-        sx, sy, gx, gy = three(stencil.sx, p), three(stencil.sy, p), three(stencil.gx, p), three(stencil.gy, p)
-        for j in range(3):
-            for i in range(3):
-                node = first + j * grid.columns + i
-                s = sx[i] * sy[j]
-                g_x = gx[i] * sy[j]
-                g_y = sx[i] * gy[j]
-                grid.mass[node] += s * mass
-                grid.momentum[node, 0] += s * momentum_x
-                grid.momentum[node, 1] += s * momentum_y
-                grid.force[node, 0] += xx * g_x + xy * g_y
-                grid.force[node, 1] += xy * g_x + yy * g_y
+    s, g = w.sy[j], w.gy[j]
+    return State(
+        plus(sums.mass, w.sx, s * brought.mass),
+        add_momentum(sums.momentum, w, j, brought.momentum_x, brought.momentum_y),
+        Momentum(
+            plus(plus(sums.force.x, w.gx, s * brought.xx), w.sx, g * brought.xy),
+            plus(plus(sums.force.y, w.gx, s * brought.xy), w.sx, g * brought.yy),
+        ),
+    )
 
 
 @inlined
-def interpolate(field, stencil, p, columns):
-    """Return ``sum_i S_ip field_i`` at particle ``p`` of a nodal vector field ``(nodes, 2)``, as (x, y)."""
-    x = 0.0
-    y = 0.0
-    for j in range(3):
-        for i in range(3):
-            node = stencil.node[p] + j * columns + i
-            s = stencil.sx[i, p] * stencil.sy[j, p]
-            x += s * field[node, 0]
-            y += s * field[node, 1]
-    return x, y
-
-
-@inlined
-def gradient(field, stencil, p, columns):
-    """Return ``sum_i field_i (x) grad S_ip`` at particle ``p`` of a field ``(nodes, 2)``, as (xx, xy, yx, yy)."""
-    xx = 0.0
-    xy = 0.0
-    yx = 0.0
-    yy = 0.0
-    for j in range(3):
-        for i in range(3):
-            node = stencil.node[p] + j * columns + i
-            g_x = stencil.gx[i, p] * stencil.sy[j, p]
-            g_y = stencil.sx[i, p] * stencil.gy[j, p]
-            xx += g_x * field[node, 0]
-            xy += g_y * field[node, 0]
-            yx += g_x * field[node, 1]
-            yy += g_y * field[node, 1]
-    return xx, xy, yx, yy
-
-
-@inlined
-def spread_mass(particles, stencil, grid):
-    """Add ``S_ip m_p`` to the nodes."""
-    for p in range(particles.x.size):
-        first = stencil.node[p]
-        sx, sy = three(stencil.sx, p), three(stencil.sy, p)
-        for j in range(3):
-            for i in range(3):
-                grid.mass[first + j * grid.columns + i] += sx[i] * sy[j] * particles.mass[p]
-
-
-@inlined
-def spread_momentum(field, momentum_x, momentum_y, stencil, p, columns):
-    """Add ``S_ip m_p v_p`` of particle ``p``, its momentum in kg/s, to a nodal vector field ``(nodes, 2)``."""
-    first = stencil.node[p]
-    sx, sy = three(stencil.sx, p), three(stencil.sy, p)
-    for j in range(3):
-        for i in range(3):
-            node = first + j * columns + i
-            s = sx[i] * sy[j]
-            field[node, 0] += s * momentum_x
-            field[node, 1] += s * momentum_y
+def deposit_state(grid, row, column, sums):
+    """Add the sums of a row of nodes to the grid."""
+    deposit(grid.mass, row * grid.columns + column, sums.mass)
+    deposit_momentum(grid.momentum, row, column, sums.momentum, grid)
+    deposit_momentum(grid.force, row, column, sums.force, grid)

@@ -58,7 +58,9 @@ def test_every_package_is_installed():
 
 
 def test_the_solver_knows_numpy_and_numba_alone():
-    allowed = {"solver", "numpy", "numba"} | set(sys.stdlib_module_names)
+    """And Numba's own compiler where a vector type is made."""
+    assert importers_of("llvmlite") == {"solver.lanes"}
+    allowed = {"solver", "numpy", "numba", "llvmlite"} | set(sys.stdlib_module_names)
     for name, source in MODULES.items():
         if name.startswith("solver"):
             assert top_levels(source) <= allowed, name

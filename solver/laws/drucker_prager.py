@@ -29,6 +29,7 @@ from typing import NamedTuple
 from solver._jit import point
 from solver.elastic import bulk_modulus, shear_modulus
 from solver.hooke import elastic_trial
+from solver.lanes import where
 from solver.laws.registry import Constants, constitutive_law
 from solver.softening import Softening, softened_strength
 
@@ -70,9 +71,9 @@ def return_stress(stress, c_cos_phi, sin_phi, law):
     f = size + eta * p - xi_c
     multiplier = max(f, 0.0) / (law.shear_modulus + law.bulk_modulus * eta * law.flow_slope)
     drop = law.shear_modulus * multiplier
-    is_apex = f > 0.0 and drop > size
-    drop = size if is_apex else drop
-    drop_p = p - xi_c / max(eta, _TINY) if is_apex else law.bulk_modulus * law.flow_slope * multiplier
+    is_apex = (f > 0.0) & (drop > size)
+    drop = where(is_apex, size, drop)
+    drop_p = where(is_apex, p - xi_c / max(eta, _TINY), law.bulk_modulus * law.flow_slope * multiplier)
     shrink = drop / max(size, _TINY)
     return (
         xx - dev_xx * shrink - drop_p,

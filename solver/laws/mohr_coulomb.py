@@ -8,8 +8,8 @@ With tension positive and ``s1 >= s2 >= s3``
 A trial stress outside returns to the plane, to the edge ``s1 = s2``, to the edge ``s2 = s3``, or to the apex
 ``s1 = s2 = s3 = c cot(phi)`` (Clausen, Damkilde and Andersen 2006, Comput. Struct. 85:1795; de Souza Neto, Peric and
 Owen 2008, ch. 8). With ``psi = 0`` plastic flow cannot change the mean stress, so the apex is reached by a hydrostatic
-map, which is also the cap on tension. All four candidates are computed and the right one is selected, without a branch,
-so that the loop over particles vectorises.
+map, which is also the cap on tension. Most that yields returns to the plane; edges and apex are looked at only where
+one of eight particles needs them.
 """
 
 import math
@@ -18,6 +18,7 @@ from typing import NamedTuple
 from solver._jit import point
 from solver.elastic import bulk_modulus, shear_modulus
 from solver.hooke import elastic_trial
+from solver.lanes import anywhere, where
 from solver.laws.registry import Constants, constitutive_law
 from solver.principal import equivalent_plastic_strain, principal_stresses, relaxed
 from solver.softening import Softening, softened_strength
@@ -49,62 +50,81 @@ def yield_function(s1, s3, c_cos_phi, sin_phi):
 
 
 @point
-def return_mapping(s1, s2, s3, c_cos_phi, sin_phi, law):
-    """Return the principal stresses on or inside the yield surface for the trial ``s1 >= s2 >= s3`` (Pa).
-
-    Flow on one plane changes the stress by ``-dgamma D b`` with ``D b = (rise, transverse, -fall)``. On an edge the two
-    multipliers solve ``[[a, b], [b, a]] (dgamma_1, dgamma_2) = (f_13, f_other)``.
-    """
-    G = law.shear_modulus
-    sin_psi = law.sin_dilation
+def flow_of(law):
+    """Return ``D b = (rise, transverse, -fall)`` in Pa: flow on the plane drops the stress by ``dgamma D b``."""
+    G, sin_psi = law.shear_modulus, law.sin_dilation
     transverse = 2.0 * (law.bulk_modulus - 2.0 * G / 3.0) * sin_psi
-    rise = 2.0 * G * (1.0 + sin_psi) + transverse
-    fall = 2.0 * G * (1.0 - sin_psi) - transverse
+    return 2.0 * G * (1.0 + sin_psi) + transverse, transverse, 2.0 * G * (1.0 - sin_psi) - transverse
+
+
+@point
+def stiffness_of_plane(sin_phi, law):
+    """Return what ``f`` falls by for a unit of flow on its plane, and the part of it from the change of volume (Pa)."""
+    _, transverse, _ = flow_of(law)
     coupling = 2.0 * transverse * sin_phi
-    a = 4.0 * G * (1.0 + sin_phi * sin_psi) + coupling
+    return 4.0 * law.shear_modulus * (1.0 + sin_phi * law.sin_dilation) + coupling, coupling
 
-    f = yield_function(s1, s3, c_cos_phi, sin_phi)
-    multiplier = max(f, 0.0) / a
-    plane_1 = s1 - multiplier * rise
-    plane_2 = s2 - multiplier * transverse
-    plane_3 = s3 + multiplier * fall
 
-    on_upper_edge = plane_2 > plane_1  # s1 = s2
-    on_lower_edge = plane_3 > plane_2  # s2 = s3
+@point
+def return_to_edge(s1, s2, s3, is_upper, c_cos_phi, sin_phi, law):
+    """Return the stress on the edge ``s1 = s2`` where ``is_upper``, else ``s2 = s3``, or at the apex beyond its end.
+
+    On an edge the multipliers of its two planes solve ``[[a, b], [b, a]] (dgamma_1, dgamma_2) = (f_13, f_other)``.
+    """
+    G, sin_psi = law.shear_modulus, law.sin_dilation
+    rise, transverse, fall = flow_of(law)
+    a, coupling = stiffness_of_plane(sin_phi, law)
     b_upper = 2.0 * G * (1.0 - sin_phi) * (1.0 - sin_psi) + coupling
     b_lower = 2.0 * G * (1.0 + sin_phi) * (1.0 + sin_psi) + coupling
-    b = b_upper if on_upper_edge else b_lower
+    b = where(is_upper, b_upper, b_lower)
+    f = yield_function(s1, s3, c_cos_phi, sin_phi)
     f_upper = yield_function(s2, s3, c_cos_phi, sin_phi)
     f_lower = yield_function(s1, s2, c_cos_phi, sin_phi)
-    f_other = f_upper if on_upper_edge else f_lower
+    f_other = where(is_upper, f_upper, f_lower)
     determinant = a * a - b * b
     first = (a * f - b * f_other) / determinant
     second = (a * f_other - b * f) / determinant
     both = first + second
-    upper_1 = s1 - first * rise - second * transverse
-    upper_3 = s3 + both * fall
-    lower_1 = s1 - both * rise
-    lower_3 = s3 + first * fall - second * transverse
-    edge_1 = upper_1 if on_upper_edge else lower_1
-    edge_3 = upper_3 if on_upper_edge else lower_3
-    edge_2 = edge_1 if on_upper_edge else edge_3
-
-    on_edge = f > 0.0 and (on_upper_edge or on_lower_edge)
-    on_apex = on_edge and edge_1 < edge_3
+    new_1 = where(is_upper, s1 - first * rise - second * transverse, s1 - both * rise)
+    new_3 = where(is_upper, s3 + both * fall, s3 + first * fall - second * transverse)
+    is_apex = new_1 < new_3
     apex = c_cos_phi / max(sin_phi, _TINY)
-    new_1 = edge_1 if on_edge else plane_1
-    new_2 = edge_2 if on_edge else plane_2
-    new_3 = edge_3 if on_edge else plane_3
-    return (apex if on_apex else new_1), (apex if on_apex else new_2), (apex if on_apex else new_3)
+    return where(is_apex, apex, new_1), where(is_apex, apex, where(is_upper, new_1, new_3)), where(is_apex, apex, new_3)
+
+
+@point
+def drops_in_return(s1, s2, s3, c_cos_phi, sin_phi, law):
+    """Return by how much the trial ``s1 >= s2 >= s3`` (Pa) drops, and the equivalent plastic strain of the return.
+
+    The plane is tried first: for most that yield it is the right one, and all of them flow in its one direction.
+    """
+    rise, transverse, fall = flow_of(law)
+    f = yield_function(s1, s3, c_cos_phi, sin_phi)
+    multiplier = max(f, 0.0) / stiffness_of_plane(sin_phi, law)[0]
+    drop_1, drop_2, drop_3 = multiplier * rise, multiplier * transverse, -(multiplier * fall)
+    plastic_strain = multiplier * equivalent_plastic_strain(rise, transverse, -fall, law.shear_modulus)
+    is_upper = s2 - drop_2 > s1 - drop_1  # beyond s1 = s2
+    is_lower = s3 - drop_3 > s2 - drop_2  # beyond s2 = s3
+    on_edge = (f > 0.0) & (is_upper | is_lower)
+    if anywhere(on_edge):
+        e1, e2, e3 = return_to_edge(s1, s2, s3, is_upper, c_cos_phi, sin_phi, law)
+        drop_1, drop_2, drop_3 = (
+            where(on_edge, s1 - e1, drop_1),
+            where(on_edge, s2 - e2, drop_2),
+            where(on_edge, s3 - e3, drop_3),
+        )
+        on_edges = equivalent_plastic_strain(drop_1, drop_2, drop_3, law.shear_modulus)
+        plastic_strain = where(on_edge, on_edges, plastic_strain)
+    return drop_1, drop_2, drop_3, plastic_strain
 
 
 @point
 def return_stress(stress, c_cos_phi, sin_phi, law):
     """Return ``(xx, yy, zz, xy, plastic strain increment)`` for a trial stress; stresses in Pa."""
     s1, s2, s3 = principal_stresses(stress)
-    n1, n2, n3 = return_mapping(s1, s2, s3, c_cos_phi, sin_phi, law)
-    xx, yy, zz, xy = relaxed(stress, s1 - n1, s2 - n2, s3 - n3)
-    return xx, yy, zz, xy, equivalent_plastic_strain(s1 - n1, s2 - n2, s3 - n3, law.shear_modulus)
+    drop_1, drop_2, drop_3, plastic_strain = drops_in_return(s1, s2, s3, c_cos_phi, sin_phi, law)
+    xx, yy, zz, xy = relaxed(stress, drop_1, drop_2, drop_3)
+    return xx, yy, zz, xy, plastic_strain
 
 
 @constitutive_law("mohr-coulomb", MohrCoulomb, mohr_coulomb)

@@ -17,6 +17,7 @@ from typing import NamedTuple
 from solver._jit import point
 from solver.elastic import bulk_modulus, shear_modulus
 from solver.hooke import elastic_trial
+from solver.lanes import where
 from solver.laws.registry import Constants, constitutive_law
 from solver.principal import equivalent_plastic_strain, principal_stresses, relaxed
 from solver.softening import Softening, remaining_share, softened
@@ -43,14 +44,14 @@ def return_mapping(s1, s2, s3, strength):
     plane_1 = s1 - 0.5 * excess
     plane_3 = s3 + 0.5 * excess
     mean = (s1 + s2 + s3) / 3.0
-    is_above = excess > 0.0 and s2 > plane_1  # s1 = s2
-    is_below = excess > 0.0 and s2 < plane_3  # s2 = s3
+    is_above = (excess > 0.0) & (s2 > plane_1)  # s1 = s2
+    is_below = (excess > 0.0) & (s2 < plane_3)  # s2 = s3
     third = 2.0 / 3.0 * strength
     above_1, below_1 = mean + third, mean + 2.0 * third
     above_3, below_3 = mean - 2.0 * third, mean - third
-    new_1 = above_1 if is_above else (below_1 if is_below else plane_1)
-    new_2 = above_1 if is_above else (below_3 if is_below else s2)
-    new_3 = above_3 if is_above else (below_3 if is_below else plane_3)
+    new_1 = where(is_above, above_1, where(is_below, below_1, plane_1))
+    new_2 = where(is_above, above_1, where(is_below, below_3, s2))
+    new_3 = where(is_above, above_3, where(is_below, below_3, plane_3))
     return new_1, new_2, new_3
 
 

@@ -5,15 +5,16 @@ from typing import NamedTuple
 import numpy as np
 
 from solver._jit import kernel
-from solver.basis import evaluate_stencil
+from solver.basis import allocate_stencil, evaluate_stencil
+from solver.constants import LANES
 from solver.grid import NO_SMOOTHING, allocate_grid
 from solver.laws.mohr_coulomb import mohr_coulomb
 from solver.laws.registry import Constants
 from solver.operations import solve_momentum
 from solver.scheme import STRESS_UPDATES, Scheme
 from solver.softening import NO_SOFTENING
-from solver.step import BLOCK, accelerate, allocate_workspace, deform, spread_all
-from solver.transfer import spread_momentum
+from solver.step import accelerate, allocate_workspace, deform, spread_all
+from solver.tiles import MASS, MOVED_X, USED, empty_tiles, fill_tiles
 
 UGIMP, B_SPLINE, LINEAR = 0.25, 0.5, 1e-6  # half lengths in cells, at four particles a cell
 SCHEMES = {name: Scheme(number, 1.0, 0.0) for name, number in STRESS_UPDATES.items()}
@@ -68,8 +69,8 @@ def divergence_row(phenomenon, errors, finest):
 
 
 def node_indices(grid):
-    """Return column and row of every node, counted from the lower left corner of the walls."""
-    j, i = np.divmod(np.arange(grid.mass.size), grid.columns)
+    """Return column and row of every node, (rows, columns), counted from the lower left corner of the walls."""
+    j, i = np.indices(grid.mass.shape)
     offset = round(grid.origin / grid.cell_size)
     return i + offset, j + offset
 
@@ -98,24 +99,48 @@ def lattice(width, height, spacing):
 
 
 @kernel
-def add_body_force(particles, grid, work, acceleration_x, acceleration_y):
+def add_body_force(particles, grid, stencil, acceleration_x, acceleration_y):
     """Add ``S_ip m_p b_p`` to the nodal forces, ``b`` (n,) in m/s2."""
-    for start in range(0, particles.x.size, BLOCK):
-        x = particles.x[start : start + BLOCK]
-        evaluate_stencil(work.stencil, x, particles.y[start : start + BLOCK], grid)
-        for p in range(x.size):
-            m = particles.mass[start + p]
-            force_x, force_y = m * acceleration_x[start + p], m * acceleration_y[start + p]
-            spread_momentum(grid.force, force_x, force_y, work.stencil, p, grid.columns)
+    evaluate_stencil(stencil, particles.x, particles.y, grid)
+    for p in range(particles.x.size):
+        row, column = stencil.node[p] // grid.columns, stencil.node[p] % grid.columns
+        for j in range(3):
+            for i in range(3):
+                mass = stencil.sx[i, p] * stencil.sy[j, p] * particles.mass[p]
+                grid.force[row + j, 0, column + i] += mass * acceleration_x[p]
+                grid.force[row + j, 1, column + i] += mass * acceleration_y[p]
+
+
+@kernel
+def solve(grid, gravity, damping, dt):
+    """Operation 2, for a loop in Python."""
+    solve_momentum(grid, gravity, damping, dt)
+
+
+@kernel
+def wrap_around(tiles, width):
+    """Let particles that move beyond a side come back at the other, ``width`` m away."""
+    for block in range(tiles.counts[USED]):
+        for lane in range(LANES):
+            if tiles.blocks[block, MASS, lane] > 0.0:
+                tiles.blocks[block, MOVED_X, lane] %= width
+
+
+def begin(particles, grid, work, scheme):
+    """Return the tiles of particles that have spread their state to the grid: operation 1 of the first step."""
+    tiles = fill_tiles(particles, grid, work.tiles)
+    spread_all(tiles, grid, scheme)
+    return tiles
 
 
 def march(particles, grid, soil, scheme, dt, steps, body_force, observe):
     """Take steps of ``dt`` s under ``body_force(t) -> (b_x, b_y)`` in m/s2; call ``observe(t)`` after each."""
-    work = allocate_workspace(particles.x.size)
-    spread_all(particles, grid, work)
+    work, stencil = allocate_workspace(particles.x.size), allocate_stencil(particles.x.size)
     for step in range(steps):
-        add_body_force(particles, grid, work, *body_force(step * dt))
-        solve_momentum(grid, 0.0, scheme.damping, dt)
-        assert accelerate(particles, grid, work, scheme, 0.0, dt)
-        assert deform(particles, grid, work, (soil,), scheme, 0.0, dt)
+        tiles = begin(particles, grid, work, scheme)
+        add_body_force(particles, grid, stencil, *body_force(step * dt))
+        solve(grid, 0.0, scheme.damping, dt)
+        assert accelerate(tiles, grid, work, scheme, 0.0, dt)
+        assert deform(tiles, grid, work, (soil,), scheme, 0.0, dt)
+        empty_tiles(tiles, particles)
         observe((step + 1) * dt)

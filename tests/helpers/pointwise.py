@@ -9,7 +9,7 @@ from solver.hooke import elastic_increment
 from solver.kinematics import rotate_stress
 from solver.laws import mohr_coulomb
 from solver.laws.registry import Constants, make_law, update_stress
-from solver.softening import Softening, Strength, exp_decay, sine
+from solver.softening import Softening, Strength, cosine, exp_decay, sine
 
 COHESION = 20e3  # Pa
 RESIDUAL_COHESION, RESIDUAL_FRICTION_ANGLE = 10e3, np.radians(5.0)
@@ -110,6 +110,12 @@ def evaluate_exp_decay(x, result):
 def evaluate_sine(x, result):
     for p in range(x.size):
         result[p] = sine(x[p])
+
+
+@kernel
+def evaluate_cosine(x, result):
+    for p in range(x.size):
+        result[p] = cosine(x[p])
 
 
 @kernel

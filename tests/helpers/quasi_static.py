@@ -22,8 +22,9 @@ from solver.operations import solve_momentum
 from solver.particles import copy_particles
 from solver.scheme import scheme_of
 from solver.softening import NO_SOFTENING
-from solver.step import accelerate, advance, allocate_workspace, deform, spread_first
+from solver.step import STEPS_BETWEEN_SORTS, accelerate, advance, allocate_workspace, deform, spread_all
 from solver.surface import Surface
+from solver.tiles import empty_tiles, fill_tiles, sort_again
 from solver.timestep import stable_step
 
 PRANDTL = 2.0 + math.pi  # exact limit of a strip load over the cohesion, on Tresca ground
@@ -55,15 +56,15 @@ def damped(model):
 
 @kernel
 def prescribe(grid, footing, velocity, dt):
-    """Hold the ``footing`` nodes at ``velocity`` downward and still sideways; return the force in N/m it takes."""
+    """Hold the ``footing`` (n, 2: row, column) at ``velocity`` downward, not sideways; return the force in N/m."""
     force = 0.0
-    for i in footing:
-        if grid.mass[i] > SMALLEST_MASS:
-            force += grid.force[i, 1]
-            grid.acceleration[i, 0] = -grid.momentum[i, 0] / grid.mass[i] / dt
-            grid.acceleration[i, 1] = (-velocity - grid.momentum[i, 1] / grid.mass[i]) / dt
-        grid.velocity[i, 0] = 0.0
-        grid.velocity[i, 1] = -velocity
+    for row, i in footing:
+        if grid.mass[row, i] > SMALLEST_MASS:
+            force += grid.force[row, 1, i]
+            grid.acceleration[row, 0, i] = -grid.momentum[row, 0, i] / grid.mass[row, i] / dt
+            grid.acceleration[row, 1, i] = (-velocity - grid.momentum[row, 1, i] / grid.mass[row, i]) / dt
+        grid.velocity[row, 0, i] = 0.0
+        grid.velocity[row, 1, i] = -velocity
     return force
 
 
@@ -71,13 +72,18 @@ def prescribe(grid, footing, velocity, dt):
 def push(particles, grid, work, laws, scheme, footing, velocity, dt, steps):
     """Push a rough rigid footing into weightless ground; return the mean force in N/m."""
     force = 0.0
-    spread_first(particles, grid, work, scheme)
-    for _ in range(steps):
+    tiles = fill_tiles(particles, grid, work.tiles)
+    spread_all(tiles, grid, scheme)
+    for step in range(steps):
+        if step % STEPS_BETWEEN_SORTS == STEPS_BETWEEN_SORTS - 1:
+            tiles = sort_again(tiles, particles, grid, work.tiles)
         solve_momentum(grid, 0.0, scheme.damping, dt)
         force += prescribe(grid, footing, velocity, dt)
-        accelerate(particles, grid, work, scheme, 0.0, dt)
-        grid.remapped[footing] = grid.velocity[footing]
-        deform(particles, grid, work, laws, scheme, 0.0, dt)
+        accelerate(tiles, grid, work, scheme, 0.0, dt)
+        for row, i in footing:
+            grid.remapped[row, :, i] = grid.velocity[row, :, i]
+        deform(tiles, grid, work, laws, scheme, 0.0, dt)
+    empty_tiles(tiles, particles)
     return force / steps
 
 
@@ -96,8 +102,8 @@ def bearing_pressure(cells, locking, settlement=0.003, samples=40, steps=500, la
     particles.cohesion[:] = cohesion
     grid, work = model.allocate_grid(), allocate_workspace(particles.x.size)
     row = round(depth / cell) + PADDING
-    footing = np.arange(PADDING + cells + 1) + row * grid.columns
-    footing = np.concatenate([footing, footing + grid.columns])  # and the nodes above, which a heaving particle reaches
+    # And the nodes above, which a heaving particle reaches.
+    footing = np.array([(row + above, i) for above in (0, 1) for i in range(PADDING + cells + 1)])
     dt = stable_step(COURANT, cell, model.wave_speed, 0.0)
     velocity = 2.0 * half_width * settlement / (samples * steps * dt)
     scheme = damped(model)

@@ -135,7 +135,7 @@ def per_mass(vectors, mass):
 
 def between_walls(vectors, grid):
     """Return nodal vectors ``(nodes, 2)`` without the components that the walls hold."""
-    return vectors * np.stack([grid.free_x, grid.free_y], axis=1)
+    return vectors * np.stack([grid.free_x.ravel(), grid.free_y.ravel()], axis=1)
 
 
 def spread(particles, grid, method):

@@ -26,7 +26,8 @@ from solver._jit import kernel
 from solver.elastic import shear_modulus
 from solver.operations import INTERNAL_WORK, solve_momentum
 from solver.particles import allocate_particles
-from solver.step import accelerate, allocate_workspace, deform, spread_first
+from solver.step import STEPS_BETWEEN_SORTS, accelerate, allocate_workspace, deform, spread_all
+from solver.tiles import empty_tiles, fill_tiles, sort_again
 
 RADIUS, HELD, DRIVEN, RIM, SIZE = 6.0, 4.0, 8.0, 2.0, 22.0  # m: of the band, the rigid parts, the rims, the grid
 SLIP, SAMPLES = 0.8, 40  # m at RADIUS, where the drive is DRIVE, looks on the way
@@ -34,20 +35,26 @@ SLIP, SAMPLES = 0.8, 40  # m at RADIUS, where the drive is DRIVE, looks on the w
 
 @kernel
 def turn(particles, grid, work, laws, scheme, is_held, is_driven, velocity, dt, steps):
-    """Hold some nodes and drive others at ``velocity`` (n, 2); return the work of the stresses in J/m."""
+    """Hold some nodes and drive others at ``velocity`` (rows, 2, columns); return the work of the stresses in J/m."""
     work.ledger[INTERNAL_WORK] = 0.0
-    spread_first(particles, grid, work, scheme)
-    for _ in range(steps):
+    tiles = fill_tiles(particles, grid, work.tiles)
+    spread_all(tiles, grid, scheme)
+    for step in range(steps):
+        if step % STEPS_BETWEEN_SORTS == STEPS_BETWEEN_SORTS - 1:
+            tiles = sort_again(tiles, particles, grid, work.tiles)
         solve_momentum(grid, 0.0, scheme.damping, dt)
-        for i in range(grid.mass.size):
-            if is_held[i] or is_driven[i]:
-                grid.acceleration[i] = 0.0
-                grid.velocity[i] = velocity[i]
-        accelerate(particles, grid, work, scheme, 0.0, dt)
-        for i in range(grid.mass.size):
-            if is_held[i] or is_driven[i]:
-                grid.remapped[i] = velocity[i]
-        deform(particles, grid, work, laws, scheme, 0.0, dt)
+        for j in range(grid.rows):
+            for i in range(grid.columns):
+                if is_held[j, i] or is_driven[j, i]:
+                    grid.acceleration[j, :, i] = 0.0
+                    grid.velocity[j, :, i] = velocity[j, :, i]
+        accelerate(tiles, grid, work, scheme, 0.0, dt)
+        for j in range(grid.rows):
+            for i in range(grid.columns):
+                if is_held[j, i] or is_driven[j, i]:
+                    grid.remapped[j, :, i] = velocity[j, :, i]
+        deform(tiles, grid, work, laws, scheme, 0.0, dt)
+    empty_tiles(tiles, particles)
     return work.ledger[INTERNAL_WORK]
 
 
@@ -72,13 +79,13 @@ def ring(cell):
 
 
 def walls(grid):
-    """Return which nodes are held, which are driven, and their velocities (n, 2)."""
-    row, column = np.divmod(np.arange(grid.mass.size), grid.columns)
+    """Return which nodes are held, which are driven (rows, columns), and their velocities (rows, 2, columns)."""
+    row, column = np.indices(grid.mass.shape)
     x = grid.origin + column * grid.cell_size - 0.5 * SIZE
     y = grid.origin + row * grid.cell_size - 0.5 * SIZE
     radius = np.hypot(x, y)
     is_driven = radius > DRIVEN
-    velocity = DRIVE / RADIUS * np.stack([-y, x], axis=1) * is_driven[:, None]
+    velocity = DRIVE / RADIUS * np.stack([-y, x], axis=1) * is_driven[:, None, :]
     return radius < HELD, is_driven, velocity
 
 

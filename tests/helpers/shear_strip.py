@@ -5,7 +5,7 @@ one-dimensional: the shear stress is the same at all heights and falls with the 
 """
 
 import numpy as np
-from driver import lattice
+from driver import lattice, wrap_around
 from shear_band import (
     DENSITY,
     DRIVE,
@@ -25,7 +25,8 @@ from solver.elastic import shear_modulus
 from solver.grid import PADDING, SMALLEST_MASS
 from solver.operations import INTERNAL_WORK, solve_momentum
 from solver.particles import allocate_particles
-from solver.step import accelerate, allocate_workspace, deform, spread_first
+from solver.step import STEPS_BETWEEN_SORTS, accelerate, allocate_workspace, deform, spread_all
+from solver.tiles import empty_tiles, fill_tiles, sort_again
 
 HEIGHT, RIM, COARSE_CELL, WIDTH_IN_CELLS = 10.0, 1.0, 0.5, 2  # m, m, m: rigid blocks at both ends are the walls
 RESIDUAL = 10e3  # Pa
@@ -33,10 +34,9 @@ SLIP, SAMPLES = 1.0, 66  # m, of the top at the end; looks on the way
 
 
 @inlined
-def share_in_rows(sums, mass, columns):
+def share_in_rows(sums, mass):
     """Give the nodes of a row their share by mass of its horizontal sum, and nothing vertical."""
-    for start in range(0, mass.size, columns):
-        row = slice(start, start + columns)
+    for row in range(mass.shape[0]):
         total = mass[row].sum()
         per_mass = sums[row, 0].sum() / total if total > SMALLEST_MASS else 0.0
         sums[row, 0] = per_mass * mass[row]
@@ -44,11 +44,11 @@ def share_in_rows(sums, mass, columns):
 
 
 @inlined
-def hold(vectors, grid, base, top, value):
+def hold(vectors, base, top, value):
     """Hold the rows up to ``base`` at rest and those from ``top`` at ``value``."""
-    vectors[: (base + 1) * grid.columns] = 0.0
-    vectors[top * grid.columns :, 0] = value
-    vectors[top * grid.columns :, 1] = 0.0
+    vectors[: base + 1] = 0.0
+    vectors[top:, 0] = value
+    vectors[top:, 1] = 0.0
 
 
 @kernel
@@ -56,20 +56,24 @@ def shear(particles, grid, work, laws, scheme, base, top, drive, dt, steps):
     """Drive the nodes from row ``top`` up at ``drive`` m/s, hold those up to row ``base``; return the work in J/m."""
     work.ledger[INTERNAL_WORK] = 0.0
     width = grid.width
-    spread_first(particles, grid, work, scheme)
-    for _ in range(steps):
-        share_in_rows(grid.momentum, grid.mass, grid.columns)
-        share_in_rows(grid.force, grid.mass, grid.columns)
+    tiles = fill_tiles(particles, grid, work.tiles)
+    spread_all(tiles, grid, scheme)
+    for step in range(steps):
+        if step % STEPS_BETWEEN_SORTS == STEPS_BETWEEN_SORTS - 1:
+            tiles = sort_again(tiles, particles, grid, work.tiles)
+        share_in_rows(grid.momentum, grid.mass)
+        share_in_rows(grid.force, grid.mass)
         solve_momentum(grid, 0.0, scheme.damping, dt)
-        hold(grid.acceleration, grid, base, top, 0.0)
-        hold(grid.velocity, grid, base, top, drive)
-        accelerate(particles, grid, work, scheme, 0.0, dt)
+        hold(grid.acceleration, base, top, 0.0)
+        hold(grid.velocity, base, top, drive)
+        accelerate(tiles, grid, work, scheme, 0.0, dt)
         grid.remapped[:, 0] *= grid.mass
-        share_in_rows(grid.remapped, grid.mass, grid.columns)
+        share_in_rows(grid.remapped, grid.mass)
         grid.remapped[:, 0] /= np.maximum(grid.mass, SMALLEST_MASS)
-        hold(grid.remapped, grid, base, top, drive)
-        work.moved_x[:] = work.moved_x % width
-        deform(particles, grid, work, laws, scheme, 0.0, dt)
+        hold(grid.remapped, base, top, drive)
+        wrap_around(tiles, width)
+        deform(tiles, grid, work, laws, scheme, 0.0, dt)
+    empty_tiles(tiles, particles)
     return work.ledger[INTERNAL_WORK]
 
 

@@ -6,6 +6,7 @@ from small_slope import small_model, with_strength
 
 from solver import cells, mean_dilation
 from solver._jit import kernel
+from solver.constants import LANES
 from solver.filling import ground_of
 from solver.in_situ import in_situ_state
 from solver.laws.mohr_coulomb import mohr_coulomb
@@ -15,7 +16,8 @@ from solver.operations import INTERNAL_WORK
 from solver.particles import copy_particles
 from solver.scheme import LOCKING, STRESS_UPDATES, Scheme
 from solver.softening import NO_SOFTENING
-from solver.step import allocate_workspace, deform, spread_first
+from solver.step import allocate_workspace, deform, pool_all, spread_all
+from solver.tiles import MASS, MOVED_X, MOVED_Y, NUMBER, X, Y, fill_tiles, get, place_of, put
 
 MODEL = small_model()
 CURED = MODEL._replace(method=MODEL.method._replace(locking="cell-average"))
@@ -37,23 +39,38 @@ def disturbed():
 
 
 @kernel
-def cell_mean(particles, increment, grid):
-    cells.clear(grid.cell_dilation, grid)
-    mean_dilation.pool_dilation(particles, increment, grid)
-    cells.average(grid.cell_dilation, mean_dilation.NO_VOLUME, grid)
-    mean_dilation.replace_dilation(particles, increment, grid)
+def read_pressure(tiles, grid, means):
+    """Fill ``means`` (n,) with what the particles read of the pressure of their cells."""
+    for tile in range(tiles.first.size):
+        row, column = place_of(tile, grid)
+        block = tiles.first[tile]
+        while block >= 0:
+            shares = cells.shares_of(get(tiles, block, X), get(tiles, block, Y), row, column, grid)
+            put(tiles, block, MOVED_X, cells.read(grid.cell_pressure, row, column, shares, grid))
+            for lane in range(LANES):
+                if tiles.blocks[block, MASS, lane] > 0.0:
+                    means[int(tiles.blocks[block, NUMBER, lane])] = tiles.blocks[block, MOVED_X, lane]
+            block = tiles.following[block]
 
 
-def averaged(particles, dilation):
-    """Return the mean of the cells, seen by the particles, of a dilation all in xx."""
-    increment = np.zeros((4, dilation.size))
-    increment[0] = dilation
-    cell_mean(particles, increment, CURED.allocate_grid())
-    np.testing.assert_allclose(increment[0] - increment[3], dilation, atol=1e-12)  # the shear is left alone
-    return increment[0] + increment[3]
+def averaged(particles, pressure):
+    """Return the mean of the cells, seen by the particles, of a ``pressure`` (n,)."""
+    stressed, means = copy_particles(particles), np.empty_like(pressure)
+    stressed.stress_xx[:] = stressed.stress_yy[:] = pressure
+    grid = CURED.allocate_grid()
+    tiles = fill_tiles(stressed, grid, allocate_workspace(pressure.size).tiles)
+    pool_all(tiles, grid, USL_CURED)
+    read_pressure(tiles, grid, means)
+    return means
 
 
-def test_uniform_dilation_stays(disturbed):
+def test_a_mean_replaces_the_dilation_and_leaves_the_shear_alone():
+    xx, xy, yx, yy = mean_dilation.with_mean_dilation((0.3, 0.5, -0.2, 0.1), 0.6)
+    assert xx + yy == pytest.approx(0.6)
+    assert (xx - yy, xy, yx) == (pytest.approx(0.2), 0.5, -0.2)
+
+
+def test_a_uniform_value_stays(disturbed):
     np.testing.assert_allclose(averaged(disturbed, np.full(disturbed.x.size, 0.3)), 0.3, rtol=1e-13)
 
 
@@ -64,25 +81,26 @@ def test_the_mean_keeps_the_change_of_volume_and_is_self_adjoint(disturbed):
     assert np.sum(volume * b * averaged(disturbed, a)) == pytest.approx(np.sum(volume * a * averaged(disturbed, b)))
 
 
-def test_on_the_lattice_the_particles_of_a_cell_dilate_alike():
+def test_on_the_lattice_the_particles_of_a_cell_read_alike():
     particles = ground_of(MODEL)
-    dilation = np.random.default_rng(5).normal(size=particles.x.size)
+    value = np.random.default_rng(5).normal(size=particles.x.size)
     cell = np.floor(particles.x / MODEL.cell_size) + 1000 * np.floor(particles.y / MODEL.cell_size)
-    mean = averaged(particles, dilation)
+    mean = averaged(particles, value)
     for c in np.unique(cell):
-        np.testing.assert_allclose(mean[cell == c], dilation[cell == c].mean(), atol=1e-12)
+        np.testing.assert_allclose(mean[cell == c], value[cell == c].mean(), atol=1e-12)
 
 
 def test_nodal_forces_do_the_work_of_the_stresses(disturbed):
     """Virtual work: ``-sum_i f_i . v_i dt = sum_p V_p s_p : Lbar_p dt`` for any nodal velocity."""
     particles = copy_particles(disturbed)
     grid, work, dt = CURED.allocate_grid(), allocate_workspace(particles.x.size), 1e-9
-    spread_first(particles, grid, work, USL_CURED)
+    tiles = fill_tiles(particles, grid, work.tiles)
+    spread_all(tiles, grid, USL_CURED)
     velocity = np.random.default_rng(6).normal(size=grid.velocity.shape)
     power = -np.sum(grid.force * velocity)
     grid.velocity[:] = velocity
-    work.moved_x[:], work.moved_y[:] = particles.x, particles.y
-    assert deform(particles, grid, work, (SOFT,), USL_CURED, 0.0, dt)
+    tiles.blocks[:, MOVED_X], tiles.blocks[:, MOVED_Y] = tiles.blocks[:, X], tiles.blocks[:, Y]
+    assert deform(tiles, grid, work, (SOFT,), USL_CURED, 0.0, dt)
     assert work.ledger[INTERNAL_WORK] / dt == pytest.approx(power, rel=1e-6)
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from driver import MUSL
 from small_slope import small_model, with_strength
 
 from solver.filling import fill_ground
@@ -9,10 +10,12 @@ from solver.grid import allocate_grid
 from solver.in_situ import in_situ_state
 from solver.internal_length import BAND_THICKNESS, coarse_rate_factor, least_thickness, smoothing_weights
 from solver.march import march_to_rest
-from solver.nonlocal_softening import average_plastic_strain
+from solver.step import spread_all
 from solver.surface import Surface
+from solver.tiles import PLASTIC_INCREMENT, PLASTIC_STRAIN, allocate_tiles, empty_tiles, fill_tiles
 
 LENGTH = 1.0  # m
+AVERAGING = MUSL._replace(averages_plastic_strain=True)
 LEVEL = Surface(np.array([0.0, 8.0]), np.array([8.0, 8.0]))
 
 
@@ -21,7 +24,11 @@ def averaged(cell, surface, plastic_strain_at):
     particles = fill_ground(surface, cell, 4, 2000.0)
     particles.plastic_strain[:] = plastic_strain_at(particles.x, particles.y)
     grid = allocate_grid(surface.width, surface.top + cell, cell, 0.25, smoothing_weights(LENGTH, cell, 0.25))
-    average_plastic_strain(particles, grid, np.zeros(particles.x.size))
+    tiles = fill_tiles(particles, grid, allocate_tiles(particles.x.size))
+    tiles.blocks[:, PLASTIC_INCREMENT] = tiles.blocks[:, PLASTIC_STRAIN]
+    tiles.blocks[:, PLASTIC_STRAIN] = 0.0
+    spread_all(tiles, grid, AVERAGING)
+    empty_tiles(tiles, particles)
     return particles
 
 

@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
+from driver import MUSL, begin
 
 from solver import observables
 from solver.filling import fill_ground
 from solver.grid import allocate_grid
 from solver.particles import allocate_particles, copy_particles
 from solver.slide import PAPER
-from solver.step import allocate_workspace, spread_all
+from solver.step import allocate_workspace
 from solver.surface import Surface
 
 CUT = Surface(np.array([0.0, 10.0, 10.0, 30.0]), np.array([8.0, 8.0, 4.0, 4.0]), 10.0)
@@ -124,12 +125,12 @@ def test_grid_sees_all_energy_of_a_translation_and_less_of_noise():
     ground, grid, work = ground_on_a_grid(has_walls=False)
     ground.velocity_x[:], ground.velocity_y[:] = 3.0, -4.0
     assert observables.fastest(ground) == pytest.approx(5.0)
-    spread_all(ground, grid, work)
+    begin(ground, grid, work, MUSL)
     energy = 0.5 * 2000.0 * 6.0 * 25.0
     assert observables.kinetic_energy(ground) == pytest.approx(energy, rel=1e-12)
     assert observables.resolved_kinetic_energy(grid) == pytest.approx(energy, rel=1e-12)
     ground.velocity_x[:] = np.random.default_rng(2).normal(size=ground.x.size)
-    spread_all(ground, grid, work)
+    begin(ground, grid, work, MUSL)
     assert observables.resolved_kinetic_energy(grid) < observables.kinetic_energy(ground)
 
 
@@ -137,7 +138,7 @@ def test_nodes_that_cannot_move_carry_no_energy():
     """Noise inside a cell shows as momentum of wall nodes, which moves nothing. A wall holds half a cell of mass."""
     ground, grid, work = ground_on_a_grid(has_walls=True)
     ground.velocity_x[:], ground.velocity_y[:] = 3.0, -4.0
-    spread_all(ground, grid, work)
+    begin(ground, grid, work, MUSL)
     movable_x, movable_y = (3.0 - 0.5) * (2.0 - 0.25), 3.0 * (2.0 - 0.25)
     energy = 0.5 * 2000.0 * (9.0 * movable_x + 16.0 * movable_y)
     assert observables.resolved_kinetic_energy(grid) == pytest.approx(energy, rel=1e-12)

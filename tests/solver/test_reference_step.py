@@ -68,6 +68,11 @@ def plain_step(start, basis, step, gravity, rate):
     return reference_step(start, grid, point_law, step, gravity, rate, DT)
 
 
+def by_node(field):
+    """Return a vector field ``(rows, 2, columns)`` as ``(nodes, 2)``."""
+    return np.moveaxis(field, 1, 2).reshape(-1, 2)
+
+
 def deviation(found, expected):
     """Return the largest difference over the largest magnitude; absolute where nothing but 0 is expected."""
     return np.abs(found - expected).max() / (np.abs(expected).max() or 1.0)
@@ -80,9 +85,11 @@ def largest_deviation(start, basis, method, gravity=STANDARD_GRAVITY, rate=0.0):
     mass = plain.mass[:, None]
     pairs = [
         *zip(particles, plain.particles, strict=True),
-        *((getattr(grid, name), value) for name, value in plain.nodes._asdict().items()),
-        (mass * grid.velocity, mass * plain.velocity),  # by mass: what a nearly empty node does moves nothing
-        (mass * grid.acceleration, mass * plain.acceleration),
+        (grid.mass.ravel(), plain.nodes.mass),
+        (by_node(grid.momentum), plain.nodes.momentum),
+        (by_node(grid.force), plain.nodes.force),
+        (mass * by_node(grid.velocity), mass * plain.velocity),  # by mass: a nearly empty node moves nothing
+        (mass * by_node(grid.acceleration), mass * plain.acceleration),
         (ledger[INTERNAL_WORK], plain.work_of_stresses),
         (ledger[GRAVITY_WORK], plain.work_of_gravity),
     ]

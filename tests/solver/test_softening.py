@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pointwise import evaluate_exp_decay, evaluate_sine
+from pointwise import evaluate_cosine, evaluate_exp_decay, evaluate_sine
 
 from solver.softening import Softening, Strength, remaining_shares, softened_strength
 
@@ -26,6 +26,13 @@ def test_sine_equals_the_library_to_1e_11():
     found = np.empty_like(x)
     evaluate_sine(x, found)
     np.testing.assert_allclose(found, np.sin(x), rtol=1e-11, atol=0.0)
+
+
+def test_cosine_equals_the_library_to_1e_11():
+    x = np.linspace(0.0, np.pi / 2, 20_001)
+    found = np.empty_like(x)
+    evaluate_cosine(x, found)
+    np.testing.assert_allclose(found, np.cos(x), rtol=0.0, atol=1e-11)
 
 
 @pytest.mark.parametrize(

@@ -2,22 +2,32 @@
 
 import numpy as np
 import pytest
+from driver import MUSL, begin
 
-from solver.basis import allocate_stencil, evaluate_stencil
+from solver._jit import kernel
+from solver.constants import LANES
 from solver.filling import fill_ground
 from solver.grid import allocate_grid
+from solver.lanes import store
 from solver.laws.mohr_coulomb import mohr_coulomb
 from solver.laws.registry import Constants
 from solver.particles import allocate_particles
 from solver.scheme import STRESS_UPDATES, Scheme
 from solver.softening import NO_SOFTENING
-from solver.step import advance, allocate_workspace, spread_all
+from solver.step import advance, allocate_workspace
 from solver.surface import Surface
-from solver.transfer import gradient, interpolate
+from solver.tiles import MASS, NUMBER, X, Y, fill_tiles, get, place_of
+from solver.transfer import gradient, interpolate, weights_of
 
 CELL = 0.5
 SOIL = mohr_coulomb(Constants(10e6, 0.3, 0.0, NO_SOFTENING))
 HALF_LENGTHS = [1e-6, 0.25, 0.5]
+
+
+def places_of_nodes(grid):
+    """Return x and y of the nodes in m, each (rows, columns)."""
+    j, i = np.indices(grid.mass.shape)
+    return grid.origin + i * CELL, grid.origin + j * CELL
 
 
 def random_particles(n=1000, seed=0):
@@ -41,11 +51,11 @@ def free_grid(width, height, half_length):
 def test_mass_and_momentum_reach_the_grid_and_internal_forces_balance(half_length):
     particles = random_particles()
     grid = free_grid(6.0, 4.0, half_length)
-    spread_all(particles, grid, allocate_workspace(particles.x.size))
+    begin(particles, grid, allocate_workspace(particles.x.size), MUSL)
     momentum = [np.sum(particles.mass * v) for v in (particles.velocity_x, particles.velocity_y)]
     assert grid.mass.sum() == pytest.approx(particles.mass.sum(), rel=1e-13)
-    np.testing.assert_allclose(grid.momentum.sum(axis=0), momentum, rtol=1e-12)
-    np.testing.assert_allclose(grid.force.sum(axis=0), 0.0, atol=1e-11 * np.abs(grid.force).max())
+    np.testing.assert_allclose(grid.momentum.sum(axis=(0, 2)), momentum, rtol=1e-12)
+    np.testing.assert_allclose(grid.force.sum(axis=(0, 2)), 0.0, atol=1e-11 * np.abs(grid.force).max())
 
 
 @pytest.mark.parametrize("half_length", HALF_LENGTHS)
@@ -53,28 +63,50 @@ def test_internal_forces_of_a_symmetric_stress_exert_no_moment(half_length):
     """``sum_i x_i (x) f_i = -sum_p V_p sigma_p`` by linear reproduction, which is symmetric."""
     particles = random_particles()
     grid = free_grid(6.0, 4.0, half_length)
-    spread_all(particles, grid, allocate_workspace(particles.x.size))
-    j, i = np.divmod(np.arange(grid.mass.size), grid.columns)
-    places = np.stack([grid.origin + i * CELL, grid.origin + j * CELL])
+    begin(particles, grid, allocate_workspace(particles.x.size), MUSL)
+    places = np.stack(places_of_nodes(grid))
     xx, yy, xy = (
         -np.sum(particles.volume * s) for s in (particles.stress_xx, particles.stress_yy, particles.stress_xy)
     )
-    np.testing.assert_allclose(places @ grid.force, [[xx, xy], [xy, yy]], rtol=0.0, atol=1e-9)
+    moments = np.einsum("ajk,jbk->ab", places, grid.force)
+    np.testing.assert_allclose(moments, [[xx, xy], [xy, yy]], rtol=0.0, atol=1e-9)
+
+
+@kernel
+def read_field(tiles, grid, values, gradients):
+    """Fill ``values`` (n, 2) and ``gradients`` (n, 4) with what the particles read of the nodal velocity."""
+    lanes = np.empty((6, LANES))
+    for tile in range(tiles.first.size):
+        row, column = place_of(tile, grid)
+        block = tiles.first[tile]
+        while block >= 0:
+            w = weights_of(get(tiles, block, X), get(tiles, block, Y), row, column, grid)
+            x, y = interpolate(grid.velocity, row, column, w, grid)
+            xx, xy, yx, yy = gradient(grid.velocity, row, column, w, grid)
+            store(lanes, 0, x)
+            store(lanes, LANES, y)
+            store(lanes, 2 * LANES, xx)
+            store(lanes, 3 * LANES, xy)
+            store(lanes, 4 * LANES, yx)
+            store(lanes, 5 * LANES, yy)
+            for lane in range(LANES):
+                if tiles.blocks[block, MASS, lane] > 0.0:
+                    p = int(tiles.blocks[block, NUMBER, lane])
+                    values[p], gradients[p] = lanes[:2, lane], lanes[2:, lane]
+            block = tiles.following[block]
 
 
 @pytest.mark.parametrize("half_length", HALF_LENGTHS)
 def test_a_linear_velocity_field_is_read_back_exactly(half_length):
     grid = free_grid(6.0, 4.0, half_length)
-    rng = np.random.default_rng(1)
-    x, y = rng.uniform(0.0, 6.0, 100), rng.uniform(0.0, 4.0, 100)
-    stencil = allocate_stencil(x.size)
-    evaluate_stencil(stencil, x, y, grid)
-    j, i = np.divmod(np.arange(grid.mass.size), grid.columns)
+    particles = random_particles(100, seed=1)
+    tiles = fill_tiles(particles, grid, allocate_workspace(100).tiles)
     L = np.array([[0.3, -1.2], [0.7, 2.0]])
-    field = np.stack([grid.origin + i * CELL, grid.origin + j * CELL], axis=1) @ L.T
-    for p in range(x.size):
-        np.testing.assert_allclose(interpolate(field, stencil, p, grid.columns), L @ [x[p], y[p]], atol=1e-8)
-        np.testing.assert_allclose(gradient(field, stencil, p, grid.columns), L.ravel(), atol=1e-8)
+    grid.velocity[:] = np.einsum("ab,bjk->jak", L, np.stack(places_of_nodes(grid)))
+    values, gradients = np.empty((100, 2)), np.empty((100, 4))
+    read_field(tiles, grid, values, gradients)
+    np.testing.assert_allclose(values, np.stack([particles.x, particles.y], axis=1) @ L.T, atol=1e-8)
+    np.testing.assert_allclose(gradients, np.broadcast_to(L.ravel(), (100, 4)), atol=1e-8)
 
 
 @pytest.mark.parametrize("stress_update", STRESS_UPDATES)

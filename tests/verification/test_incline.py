@@ -29,17 +29,17 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from driver import MUSL, UGIMP, Row, grid_without_walls, lattice, march, node_indices
+from driver import MUSL, UGIMP, Row, begin, grid_without_walls, lattice, march, node_indices, solve, wrap_around
 
 from solver.constants import STANDARD_GRAVITY
 from solver.elastic import p_wave_speed
 from solver.grid import SMALLEST_MASS, allocate_grid
 from solver.laws.mohr_coulomb import mohr_coulomb
 from solver.laws.registry import Constants
-from solver.operations import solve_momentum
 from solver.particles import allocate_particles
 from solver.softening import NO_SOFTENING
-from solver.step import accelerate, allocate_workspace, deform, spread_all
+from solver.step import accelerate, allocate_workspace, deform
+from solver.tiles import empty_tiles
 
 HEIGHT, DENSITY, YOUNG_MODULUS, POISSON_RATIO, COURANT = 1.0, 2000.0, 1e8, 0.3, 0.4
 DURATION, STEADY = 0.5, 0.25  # s; stress is steady in the second half
@@ -66,28 +66,27 @@ class Incline(NamedTuple):
 
 def share_in_rows(sums, grid):
     """Give the nodes of a row their share by mass of its sum, in place."""
-    mass = grid.mass.reshape(grid.rows, grid.columns)
-    rows = sums.reshape(grid.rows, grid.columns, 2)
-    per_mass = rows.sum(axis=1) / np.maximum(mass.sum(axis=1), SMALLEST_MASS)[:, None]
-    rows[:] = mass[:, :, None] * per_mass[:, None]
+    mass = grid.mass[:, None]
+    sums[:] = mass * (sums.sum(axis=2) / np.maximum(mass.sum(axis=2), SMALLEST_MASS))[:, :, None]
 
 
 def slide(particles, grid, soil, gravity_x, gravity_y, dt, steps):
     """March the strip, periodic along the base; return the mean velocity of its upper half (steps,) in m/s."""
     work, upper = allocate_workspace(particles.x.size), particles.y > 0.5 * HEIGHT
     velocity = np.empty(steps)
-    spread_all(particles, grid, work)
     for step in range(steps):
+        tiles = begin(particles, grid, work, MUSL)
         share_in_rows(grid.momentum, grid)
         share_in_rows(grid.force, grid)
         grid.force[:, 0] += gravity_x * grid.mass
-        solve_momentum(grid, gravity_y, MUSL.damping, dt)
-        assert accelerate(particles, grid, work, MUSL, 0.0, dt)
+        solve(grid, gravity_y, MUSL.damping, dt)
+        assert accelerate(tiles, grid, work, MUSL, 0.0, dt)
         grid.remapped[:] *= grid.mass[:, None]
         share_in_rows(grid.remapped, grid)
         grid.remapped[:] /= np.maximum(grid.mass, SMALLEST_MASS)[:, None]
-        work.moved_x[:] %= grid.width
-        assert deform(particles, grid, work, (soil,), MUSL, 0.0, dt)
+        wrap_around(tiles, grid.width)
+        assert deform(tiles, grid, work, (soil,), MUSL, 0.0, dt)
+        empty_tiles(tiles, particles)
         velocity[step] = particles.velocity_x[upper].mean()
     return velocity
 

@@ -23,6 +23,7 @@ from driver import (
 from solver.elastic import p_wave_speed
 from solver.particles import allocate_particles
 from solver.step import advance, allocate_workspace, deform
+from solver.tiles import MOVED_X, MOVED_Y, USED, X, Y, empty_tiles, fill_tiles
 
 DENSITY, RADIUS, CENTRE = 1000.0, 0.5, 1.0  # kg/m3, m, m
 SOIL = elastic_soil(1000.0, 0.3)
@@ -50,11 +51,14 @@ def turned_once(steps, along_chords):
     velocity = np.stack([stretch * x - spin * y, spin * x + stretch * y], axis=1)  # dt = 1 s
     work = allocate_workspace(body.x.size)
     for _ in range(steps):
+        tiles = fill_tiles(body, grid, work.tiles)
         grid.remapped[:] = velocity
-        x_p, y_p = body.x - CENTRE, body.y - CENTRE
-        work.moved_x[:] = CENTRE + np.cos(angle) * x_p - np.sin(angle) * y_p
-        work.moved_y[:] = CENTRE + np.sin(angle) * x_p + np.cos(angle) * y_p
-        assert deform(body, grid, work, (SOIL,), MUSL, 0.0, 1.0)
+        used = tiles.blocks[: tiles.counts[USED]]
+        x_p, y_p = used[:, X] - CENTRE, used[:, Y] - CENTRE
+        used[:, MOVED_X] = CENTRE + np.cos(angle) * x_p - np.sin(angle) * y_p
+        used[:, MOVED_Y] = CENTRE + np.sin(angle) * x_p + np.cos(angle) * y_p
+        assert deform(tiles, grid, work, (SOIL,), MUSL, 0.0, 1.0)
+        empty_tiles(tiles, body)
     return body
 
 

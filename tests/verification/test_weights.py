@@ -61,7 +61,7 @@ def largest_deviations(half_length, particles=2000):
     exact = np.array([along_y[:, None] * along_x for along_y, along_x in pairs])
     deviation = np.abs(found - exact).max(axis=(1, 2, 3))
     flat = found[0].reshape(-1, particles)
-    places = np.abs(np.stack(node_indices(grid)) @ flat - np.stack([x, y]) / CELL)
+    places = np.abs(np.reshape(node_indices(grid), (2, -1)) @ flat - np.stack([x, y]) / CELL)
     return deviation[0], deviation[1:].max(), np.abs(flat.sum(axis=0) - 1.0).max(), places.max()
 
 
