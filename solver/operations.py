@@ -41,6 +41,8 @@ def clear_state(grid):
                 store(grid.momentum, x + grid.columns, nothing)
                 store(grid.force, x, nothing)
                 store(grid.force, x + grid.columns, nothing)
+                store(grid.remapped, x, nothing)
+                store(grid.remapped, x + grid.columns, nothing)
 
 
 @inlined
@@ -50,7 +52,7 @@ def solve_momentum(grid, gravity, damping, dt):
     Parameters
     ----------
     grid : Grid
-        Its ``acceleration`` and ``velocity`` are set, its ``remapped`` is emptied.
+        Its ``acceleration`` and ``velocity`` are set where eight neighbours are not all empty.
     gravity : float
         Downward, in m/s2.
     damping : float
@@ -64,10 +66,11 @@ def solve_momentum(grid, gravity, damping, dt):
             x = node + row * grid.columns
             mass = load(grid.mass, node)
             has_mass = mass > SMALLEST_MASS
-            inverse = where(has_mass, 1.0 / mass, 0.0)
-            weight = where(has_mass, splat(gravity), 0.0)
-            _solve(grid, x, load(grid.free_x, node), inverse, 0.0 * weight, damping, dt)
-            _solve(grid, x + grid.columns, load(grid.free_y, node), inverse, weight, damping, dt)
+            if bits(has_mass):
+                inverse = where(has_mass, 1.0 / mass, 0.0)
+                weight = where(has_mass, splat(gravity), 0.0)
+                _solve(grid, x, load(grid.free_x, node), inverse, 0.0 * weight, damping, dt)
+                _solve(grid, x + grid.columns, load(grid.free_y, node), inverse, weight, damping, dt)
 
 
 @inlined
@@ -78,7 +81,6 @@ def _solve(grid, at, free, inverse, gravity, damping, dt):
     a = a - damping * abs(a) * sign(v)
     store(grid.acceleration, at, a * free)
     store(grid.velocity, at, (v + a * dt) * free)
-    store(grid.remapped, at, splat(0.0))
 
 
 @inlined

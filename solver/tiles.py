@@ -39,6 +39,7 @@ class Tiles(NamedTuple):
     blocks: np.ndarray  # (capacity, FIELDS, 8)
     following: np.ndarray  # (capacity,) the next block of the same tile, -1 after the last
     first: np.ndarray  # (rows * tiles in a row,) the first block of a tile, -1 if it is empty
+    tile: np.ndarray  # (capacity,) the tile of a block
     gone: np.ndarray  # (capacity,) lanes that have left their base cells in this step, as bits
     leavers: np.ndarray  # (n, FIELDS) their particles
     counts: np.ndarray  # (2,)
@@ -49,6 +50,7 @@ class TileStore(NamedTuple):
 
     blocks: np.ndarray
     following: np.ndarray
+    tile: np.ndarray
     gone: np.ndarray
     leavers: np.ndarray
     rank: np.ndarray  # (n,) how many particles of the same base cell come before
@@ -66,6 +68,7 @@ def allocate_tiles(n_particles: int) -> TileStore:
     return TileStore(
         blocks=room[start : start + capacity * BLOCK].reshape(capacity, FIELDS, WIDTH),
         following=np.empty(capacity, np.int64),
+        tile=np.empty(capacity, np.int64),
         gone=np.empty(capacity, np.int64),
         leavers=np.empty((n_particles, FIELDS)),
         rank=np.empty(n_particles, np.int64),
@@ -173,7 +176,7 @@ def fill_tiles(particles, grid, store):
         store.rank[p] = crowd[row, column]
         crowd[row, column] += 1
     first = np.full(grid.rows * tiles_in_row(grid), -1, np.int64)
-    tiles = Tiles(store.blocks, store.following, first, store.gone, store.leavers, np.zeros(2, np.int64))
+    tiles = Tiles(store.blocks, store.following, first, store.tile, store.gone, store.leavers, np.zeros(2, np.int64))
     for tile in range(first.size):
         row, column = place_of(tile, grid)
         height = crowd[row, column : column + WIDTH].max()
@@ -204,6 +207,7 @@ def add_block(tiles, tile, row, column, grid):
     empty_block(tiles, block, row, column, grid)
     tiles.following[block] = tiles.first[tile]
     tiles.first[tile] = block
+    tiles.tile[block] = tile
 
 
 @inlined
@@ -262,18 +266,15 @@ def change_tiles(tiles, grid):
 def take_out_leavers(tiles, grid):
     """Move the particles that are noted as gone from their blocks to the leavers."""
     leaver = 0
-    for tile in range(tiles.first.size):
-        block = tiles.first[tile]
-        while block >= 0:
-            if tiles.gone[block]:
-                row, column = place_of(tile, grid)
-                for lane in range(WIDTH):
-                    if (tiles.gone[block] >> lane) & 1:
-                        tiles.leavers[leaver] = tiles.blocks[block, :, lane]
-                        leaver += 1
-                        empty_lane(tiles, block, lane, row, column + lane, grid)
-                tiles.gone[block] = 0
-            block = tiles.following[block]
+    for block in range(tiles.counts[USED]):
+        if tiles.gone[block]:
+            row, column = place_of(tiles.tile[block], grid)
+            for lane in range(WIDTH):
+                if (tiles.gone[block] >> lane) & 1:
+                    tiles.leavers[leaver] = tiles.blocks[block, :, lane]
+                    leaver += 1
+                    empty_lane(tiles, block, lane, row, column + lane, grid)
+            tiles.gone[block] = 0
     tiles.counts[LEAVERS] = leaver
 
 
