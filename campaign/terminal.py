@@ -1,6 +1,9 @@
 """What the terminal is told: whole lines, and lengths of time as a person would write them."""
 
+import sys
 from datetime import timedelta
+
+CLEAR = "\x1b[H\x1b[J"  # cursor home, and nothing after it (ECMA-48)
 
 
 def duration(seconds: float) -> str:
@@ -22,6 +25,16 @@ def data_size(n_bytes: float) -> str:
 def clock(seconds: float) -> str:
     """Return a length of time as hours, minutes and seconds, "0:02:05"."""
     return str(timedelta(seconds=int(seconds)))
+
+
+def counted(number: int, noun: str) -> str:
+    """Return a number with its noun, "1 rank", "2 ranks"."""
+    return f"{number:,} {noun}{'' if number == 1 else 's'}"
+
+
+def refresh(text: str) -> None:
+    """Print text as the one thing on the screen; below the last one where the output is not a terminal."""
+    say(f"{CLEAR if sys.stdout.isatty() else ''}{text}")
 
 
 def say(text: str) -> None:

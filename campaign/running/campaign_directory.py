@@ -17,7 +17,7 @@ from campaign.storage import manifest
 from campaign.storage.layout import RESULTS
 from campaign.storage.lock import DirectoryLock
 from campaign.storage.provenance import attributes
-from campaign.terminal import say
+from campaign.terminal import counted, say
 
 WriteReport: TypeAlias = Callable[[Path], Path]
 """Makes the report of a results directory and returns its page."""
@@ -67,7 +67,8 @@ class CampaignDirectory:
     def announce(self, ranks: int, tally: Tally) -> None:
         """Say what is about to be done."""
         earlier = f"; {tally.done} are finished already" if tally.done else ""
-        say(f"{self.scene.title}: at most {tally.maximum} realizations on {ranks} ranks, in {self.path}{earlier}.")
+        most, ours = counted(tally.maximum, "realization"), counted(ranks, "rank")
+        say(f"{self.scene.title}: at most {most} on {ours}, in {self.path}{earlier}.")
 
     def close(self) -> None:
         """Give the directory free."""

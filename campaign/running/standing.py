@@ -12,7 +12,7 @@ from campaign.storage import manifest
 from campaign.storage.layout import HALF_CELL, RESULTS
 from campaign.storage.lock import DirectoryLock
 from campaign.storage.record_store import RecordStore
-from campaign.terminal import say
+from campaign.terminal import counted, refresh
 
 REFRESH = 5.0
 """Seconds between two looks of `--watch`."""
@@ -37,17 +37,17 @@ def status(directory: Path) -> str:
 
 
 def watch(directory: Path) -> None:
-    """Print the state again and again until the campaign is at rest."""
-    say(status(directory))
+    """Show the state, again and again, until the campaign is at rest."""
+    refresh(status(directory))
     while DirectoryLock(directory).is_held():
         time.sleep(REFRESH)
-        say(status(directory))
+        refresh(status(directory))
 
 
 def _state(directory: Path, about: dict[str, Any]) -> str:
     if DirectoryLock(directory).is_held():
         start = about["starts"][-1]
-        return f"running on {start['ranks']} ranks since {start['at']}"
+        return f"running on {counted(start['ranks'], 'rank')} since {start['at']}"
     if about["end"] is None:
         return "killed; give the same command again to continue"
     return str(about["end"]["verdict"])

@@ -12,6 +12,7 @@ from typing import Any
 from campaign.scene import Scene
 from campaign.storage.formats import FORMAT, READER, program_version
 from campaign.storage.source_hash import package_hash, realization_hash
+from campaign.terminal import counted
 
 PACKAGE = Path(__file__).parents[1]
 
@@ -59,7 +60,9 @@ def attributes(scene: Scene, manifest: Mapping[str, Any], verdict: str) -> dict[
         "format": FORMAT,
         "format_reader": READER,
         "source": f"runout-campaign {program_version()}",
-        "history": "; ".join(f"{start['at']} on {start['ranks']} ranks of {start['host']}" for start in starts),
+        "history": "; ".join(
+            f"{start['at']} on {counted(start['ranks'], 'rank')} of {start['host']}" for start in starts
+        ),
         "seed": str(rule.seed),
         "front": scene.slide.front,
         "stopping_rule": (
