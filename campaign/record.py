@@ -1,6 +1,6 @@
 """One realization's result, and what its numbers mean."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
@@ -151,6 +151,13 @@ def units_of(quantities: Mapping[str, Quantity]) -> dict[str, str]:
 def with_dims(quantities: Mapping[str, T], sizes: Mapping[str, int]) -> dict[str, T]:
     """Return the quantities of which all dimensions exist: without receptors nothing is told of them."""
     return {name: quantity for name, quantity in quantities.items() if sizes.keys() >= set(quantity.dims)}
+
+
+def markdown_table(rows: Iterable[tuple[str, Quantity]]) -> str:
+    """Return quantities of the dataset, each with the names it is shown by, as a table in Markdown."""
+    lines = ["| name | by | unit | meaning |", "|---|---|---|---|"]
+    lines += [f"| {shown} | {', '.join(row.dims)} | {row.units} | {row.long_name} |" for shown, row in rows]
+    return "\n".join(lines)
 
 
 def missing_values(quantities: Mapping[str, Quantity], sizes: Mapping[str, int]) -> dict[str, Value]:

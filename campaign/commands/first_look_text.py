@@ -13,6 +13,7 @@ from campaign.scene.cost import (
     speed,
     step_count,
     time_step,
+    with_more_of_an_input,
 )
 from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, FirstLook
 from campaign.scene.limit_equilibrium import SlipCircle
@@ -126,5 +127,6 @@ def _cost(scene: Scene) -> str:
     return (
         f"At most {duration(max(realization_seconds(scene), 1.0))} a realization, and "
         f"{f'{hours:.2g}' if hours < 99.5 else f'{hours:,.0f}'} core-hours for all {scene.campaign.realizations:,}, "
-        f"with {pairs(scene):,} repeated at half the cell, at {speed(scene) / 1e6:.2g} million particle-steps a second."
+        f"with {pairs(scene):,} repeated at half the cell and {with_more_of_an_input(scene):,} with one input changed, "
+        f"at {speed(scene) / 1e6:.2g} million particle-steps a second."
     )

@@ -7,11 +7,13 @@ from typing import NamedTuple
 
 from campaign.errors import RefusalError
 from campaign.record import UNHINDERED
+from campaign.running.changed_inputs import with_changed_inputs
 from campaign.running.level import Level
 from campaign.running.side_run import Means, SideRun, make
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.statistics import discretisation
+from campaign.statistics.changed_inputs import InputEffects
 from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.release import OTHER, ReleaseComparison, with_other_release
 from campaign.statistics.tally import Tally
@@ -20,15 +22,16 @@ from campaign.terminal import say
 
 
 class BeyondSampling(NamedTuple):
-    """What half the cell and what the other release protocol change, as far as known; why that is not all, or ""."""
+    """What is known besides: why that is not all, or "", and what half the cell, release and inputs change."""
 
-    discretisation: Discretisation | None
-    release: ReleaseComparison | None
     stopped: str
+    discretisation: Discretisation | None = None
+    release: ReleaseComparison | None = None
+    inputs: InputEffects | None = None
 
 
 def beyond_sampling(scene: Scene, tally: Tally, means: Means) -> BeyondSampling:
-    """Measure the errors beyond sampling of a whole campaign.
+    """Measure the errors beyond sampling of a whole campaign, and what it owes to its inputs.
 
     Parameters
     ----------
@@ -37,12 +40,15 @@ def beyond_sampling(scene: Scene, tally: Tally, means: Means) -> BeyondSampling:
     means
         To compute with.
     """
-    pairs = min(scene.campaign.discretisation_pairs, tally.prefix)
-    if pairs == 0 or tally.too_many_failed:
-        return BeyondSampling(None, None, "")
-    release, stopped = _with_other_release(scene, means)
-    found, stopped_there = _with_half_cell(scene, tally, pairs, means._replace(stopped=means.stopped or stopped))
-    return BeyondSampling(found, release, stopped or stopped_there)
+    if tally.too_many_failed:
+        return BeyondSampling("")
+    release, found, lacking = None, None, ""
+    if pairs := min(scene.campaign.discretisation_pairs, tally.prefix):
+        release, lacking = _with_other_release(scene, means)
+        found, stopped = _with_half_cell(scene, tally, pairs, means.after(lacking))
+        lacking = lacking or stopped
+    inputs, stopped = with_changed_inputs(scene, tally, means.after(lacking))
+    return BeyondSampling(lacking or stopped, found, release, inputs)
 
 
 def _with_other_release(scene: Scene, means: Means) -> tuple[ReleaseComparison | None, str]:

@@ -119,13 +119,15 @@ class CampaignDirectory:
         from campaign.report.summary import summary
         from campaign.results import dataset
         from campaign.results.results import Results
+        from campaign.results.sensitivity import with_sensitivity
 
         about = attributes(self.scene, manifest.read(self.path), verdict)
         columns, baseline = self.level.store.columns(tally.prefix), self.level.store.read(BASELINE)
         known = (beyond.discretisation, beyond.release)
-        result = dataset.build(ground, columns, baseline, tally.history(), about, *known)
-        dataset.write(result, self.path / RESULTS)
-        return summary(Results(result, self.scene))
+        built = dataset.build(ground, columns, baseline, tally.history(), about, *known)
+        result = Results(with_sensitivity(Results(built, self.scene), beyond.inputs), self.scene)
+        dataset.write(result.data, self.path / RESULTS)
+        return summary(result)
 
 
 def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:

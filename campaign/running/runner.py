@@ -115,7 +115,7 @@ def conduct(
         return dispatcher.stopped
 
     stopped = hand_out(directory.level, ground, tally)
-    beyond = BeyondSampling(None, None, stopped)
+    beyond = BeyondSampling(stopped)
     if tally.size is not None:
         beyond = beyond_sampling(directory.scene, tally, Means(directory.path, prepare, hand_out, stopped))
     return directory.conclude(ground, tally, beyond, write_report)

@@ -35,6 +35,10 @@ class Means(NamedTuple):
     hand_out: HandOut
     stopped: str
 
+    def after(self, stopped: str) -> "Means":
+        """Return the means that are left when something had to stop for this reason, "" if it had not."""
+        return self._replace(stopped=self.stopped or stopped)
+
 
 class SideRun(NamedTuple):
     """Runs to be made.

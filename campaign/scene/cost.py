@@ -4,6 +4,7 @@ from math import ceil
 
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.inputs import inputs_of
 from solver.constants import STANDARD_GRAVITY
 from solver.elastic import bulk_modulus, p_wave_speed, shear_modulus
 from solver.timestep import stable_step
@@ -35,12 +36,18 @@ RANK_BYTES = 300e6
 
 def core_seconds(scene: Scene) -> float:
     """Return the estimated CPU time of the whole campaign [s]; at most, since slides rest before the end."""
-    return realization_seconds(scene) * (scene.campaign.realizations + HALF_CELL_COST * pairs(scene))
+    repeated = HALF_CELL_COST * pairs(scene) + with_more_of_an_input(scene)
+    return realization_seconds(scene) * (scene.campaign.realizations + repeated)
 
 
 def pairs(scene: Scene) -> int:
     """Return how many realizations are repeated with half the cell."""
     return min(scene.campaign.discretisation_pairs, scene.campaign.realizations)
+
+
+def with_more_of_an_input(scene: Scene) -> int:
+    """Return how many slides are repeated with one input changed, if so many slide."""
+    return len(inputs_of(scene)) * min(scene.campaign.sensitivity_pairs, scene.campaign.realizations)
 
 
 def realization_seconds(scene: Scene) -> float:

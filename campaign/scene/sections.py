@@ -194,6 +194,7 @@ class Campaign(Section):
     block: PositiveCount = 25
     max_failed_fraction: Fraction = 0.1
     discretisation_pairs: Count = 4
+    sensitivity_pairs: Count = 4
     realization_timeout: PositiveTime = 3600.0
 
 

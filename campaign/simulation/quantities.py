@@ -5,10 +5,11 @@ A new quantity is a new row. `python -m campaign.simulation.quantities` prints t
 
 import time
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
-from campaign.record import Average, Value, missing_values, plain, units_of, with_dims
+from campaign.record import Average, Quantity, Value, markdown_table, missing_values, plain, units_of, with_dims
 from campaign.simulation import field_summary, receptors
 from campaign.simulation.detachment import detached_volume
 from campaign.simulation.ending import Ending, Measured, taken_from
@@ -162,12 +163,13 @@ def measure(end: Ending, quantities: Mapping[str, Measured] = QUANTITIES) -> dic
 
 def markdown() -> str:
     """Return the quantities of the dataset as a table in Markdown."""
-    lines = ["| name | by | unit | meaning |", "|---|---|---|---|"]
-    for name, quantity in QUANTITIES.items():
-        by = quantity.dims if quantity.average else ("realization", *quantity.dims)
-        shown, meaning = quantity.average or (name, quantity.long_name)
-        lines.append(f"| `{shown}` | {', '.join(by)} | {quantity.units} | {meaning} |")
-    return "\n".join(lines)
+    return markdown_table([_shown(name, quantity) for name, quantity in QUANTITIES.items()])
+
+
+def _shown(name: str, quantity: Measured) -> tuple[str, Quantity]:
+    if quantity.average:
+        return f"`{quantity.average.name}`", replace(quantity, long_name=quantity.average.long_name)
+    return f"`{name}`", replace(quantity, dims=("realization", *quantity.dims))
 
 
 if __name__ == "__main__":

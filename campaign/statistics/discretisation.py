@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.record import UNHINDERED, Front, RealizationSummary
 from campaign.scene import Scene
 from campaign.scene.cost import HALF_CELL_COST
 from campaign.seeds import BASELINE
 from campaign.statistics.intervals import Interval, Sample, mean_interval
+from campaign.statistics.repetition import unhindered_runout, without_rule
 from campaign.statistics.tally import Tally
 
 METHOD = (
@@ -59,11 +59,9 @@ class Discretisation(NamedTuple):
 def with_half_cell(scene: Scene, pairs: int) -> Scene:
     """Return the scene of realizations 0 to `pairs` - 1 with half the cell; whatever depends on the cell follows it."""
     numerics = scene.numerics.model_copy(update={"cell": scene.numerics.cell / 2})
-    whole = {"realizations": pairs, "minimum": pairs + 1, "block": pairs + 1, "max_failed_fraction": 1.0}
+    repeated = without_rule(scene, pairs)
     timeout = {"realization_timeout": HALF_CELL_COST * scene.campaign.realization_timeout}
-    return scene.model_copy(
-        update={"numerics": numerics, "campaign": scene.campaign.model_copy(update=whole | timeout)}
-    )
+    return repeated.model_copy(update={"numerics": numerics, "campaign": repeated.campaign.model_copy(update=timeout)})
 
 
 def estimate(scene: Scene, coarse: Tally, fine: Tally) -> Discretisation:
@@ -74,9 +72,5 @@ def estimate(scene: Scene, coarse: Tally, fine: Tally) -> Discretisation:
 
 
 def _difference(realization: int, coarse: Tally, fine: Tally) -> float:
-    fine_runout, runout = (_runout(tally.summaries[realization], tally.front) for tally in (fine, coarse))
+    fine_runout, runout = (unhindered_runout(tally.summaries[realization], tally.front) for tally in (fine, coarse))
     return fine_runout - runout
-
-
-def _runout(summary: RealizationSummary, front: Front) -> float:
-    return summary.runout(front) if summary.status in UNHINDERED else np.nan

@@ -9,11 +9,20 @@ from typing import Any, NamedTuple
 from campaign.errors import RefusalError
 from campaign.scene import Scene, differences
 from campaign.storage.formats import check_format
-from campaign.storage.layout import ATTEMPTS, HALF_CELL, LOCK, MANIFEST, OTHER_RELEASE, PACKS, RECORDS
+from campaign.storage.layout import (
+    ATTEMPTS,
+    CHANGED_INPUTS,
+    HALF_CELL,
+    LOCK,
+    MANIFEST,
+    OTHER_RELEASE,
+    PACKS,
+    RECORDS,
+)
 
 Manifest = dict[str, Any]
 
-OWN = {LOCK, RECORDS, PACKS, ATTEMPTS, HALF_CELL, OTHER_RELEASE}
+OWN = {LOCK, RECORDS, PACKS, ATTEMPTS, HALF_CELL, OTHER_RELEASE, CHANGED_INPUTS}
 """What a campaign that was killed before its manifest was written may leave."""
 
 NEEDED = {"title", "scene", "overrides", "identity", "digest", "campaign", "starts", "end"}

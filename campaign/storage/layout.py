@@ -25,6 +25,9 @@ HALF_CELL = "half-cell"
 OTHER_RELEASE = "other-release"
 """Holds the deterministic run with the other release protocol, in the same layout."""
 
+CHANGED_INPUTS = "changed-inputs"
+"""Holds a directory for each input, named by its key: the slides repeated with more of it, in the same layout."""
+
 
 def realization_name(realization: int) -> str:
     """Return what the files of a realization are called, without a suffix."""

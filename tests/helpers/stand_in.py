@@ -88,5 +88,6 @@ if __name__ == "__main__":
     from campaign.running.mpi import run_on_ranks
 
     directory, count, *overrides = sys.argv[1:]
-    wanted = [f"campaign.realizations={count}", "campaign.discretisation_pairs=0", *overrides]
+    alone = ["campaign.discretisation_pairs=0", "campaign.sensitivity_pairs=0"]
+    wanted = [f"campaign.realizations={count}", *alone, *overrides]
     sys.exit(run_on_ranks(lambda: load_scene("ma2023", wanted), Path(directory), prepare))

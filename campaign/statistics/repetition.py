@@ -1,0 +1,22 @@
+"""Realizations of a campaign that are repeated in another setting, whatever comes of them."""
+
+import numpy as np
+
+from campaign.record import UNHINDERED, Front, RealizationSummary
+from campaign.scene import Scene
+
+
+def without_rule(scene: Scene, realizations: int) -> Scene:
+    """Return the scene of realizations 0, 1, ..., so many in all: no rule ends it earlier, no failure is too many."""
+    whole = {
+        "realizations": realizations,
+        "minimum": realizations + 1,
+        "block": realizations + 1,
+        "max_failed_fraction": 1.0,
+    }
+    return scene.model_copy(update={"campaign": scene.campaign.model_copy(update=whole)})
+
+
+def unhindered_runout(summary: RealizationSummary, front: Front) -> float:
+    """Return the run-out of a slide in m, NaN of all that did not slide or had a wall in the way."""
+    return summary.runout(front) if summary.status in UNHINDERED else np.nan
