@@ -4,6 +4,7 @@ from textwrap import fill
 
 from campaign.report.answer import answer, reasons_for_doubt
 from campaign.report.error_budget import Row, error_budget, modelling_choices
+from campaign.report.inputs import sentences
 from campaign.results.results import Results
 from campaign.statistics.receptors import receptor_estimates
 from campaign.statistics.wording import chance, chances
@@ -19,6 +20,7 @@ def summary(results: Results) -> str:
             *(fill(sentence, WIDTH) for sentence in (answer(results), *reasons_for_doubt(results))),
             f"Of {results.realizations} realizations: {counts}.",
             *_places(results),
+            *(fill(sentence, WIDTH) for sentence in sentences(results)),
             f"Error budget at {100 * results.confidence:g} % confidence",
             *(f"  {row.source:16}{_words(row)}" for row in error_budget(results)),
             "What the answer rests on",

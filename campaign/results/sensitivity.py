@@ -63,6 +63,8 @@ def _of_soil(results: Results) -> Variables:
     is_kept = np.isfinite(field_map).any(axis=(1, 2, 3))
     places, boxes = ([data[f"{each}_{axis}"].values for axis in "xy"] for each in ("particle", "box"))
     moving = sensitivity.moving_ground(places, boxes, data["influence_probability"].values)
+    if not moving.any():
+        return {}
     slides, usable = is_kept & results.has_slid, is_kept & results.has_status(USABLE)
     runouts, found = results.runouts[slides], Variables()
     if is_enough(runouts, sensitivity.FEWEST):

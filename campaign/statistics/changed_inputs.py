@@ -4,6 +4,7 @@ A slide is the same ground in both runs, but for the input: the difference betwe
 scatter between realizations, so that a few pairs tell it.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -45,9 +46,12 @@ class InputEffects(NamedTuple):
         }
 
     def ranked(self) -> dict[str, Interval]:
-        """Return the effects that are known at all, the largest first."""
-        known = {key: effect for key, effect in self.effects.items() if effect.n}
-        return dict(sorted(known.items(), key=lambda item: -abs(item[1].estimate)))
+        """Return the effects, the largest first and those of which nothing is known last."""
+        return dict(sorted(self.effects.items(), key=lambda item: -abs(item[1].estimate) if item[1].n else math.inf))
+
+    def known(self) -> dict[str, Interval]:
+        """Return the effects of which something is known, the largest first."""
+        return {key: effect for key, effect in self.ranked().items() if effect.n}
 
 
 def first_slides(tally: Tally, count: int) -> tuple[int, ...]:

@@ -28,9 +28,8 @@ class Ridge(NamedTuple):
     operator : array (m, n)
         Makes the coefficients of the outcomes.
     variance : float
-        Of what the fit leaves, in the squared unit of the outcome.
-    freedom : float
-        Degrees of freedom of `variance`.
+        Mean square by which the fit misses values left out, in the squared unit of the outcome. It is more than the
+        variance of the noise, and unlike that of the residuals it does not vanish where the fit meets every value.
     explained : float
         Share of the variance of the outcome that the fit foretells of values left out; negative where the mean of the
         others foretells more.
@@ -39,7 +38,6 @@ class Ridge(NamedTuple):
     coefficients: Sample
     operator: Matrix
     variance: float
-    freedom: float
     explained: float
 
 
@@ -54,24 +52,26 @@ def ridge(predictors: Matrix, outcome: Sample) -> Ridge:
     u, s, vt = np.linalg.svd(predictors - predictors.mean(axis=0), full_matrices=False)
     target = outcome - outcome.mean()
     penalties = PENALTIES * np.mean(s**2)
-    shares = [_explained(u, s**2 / (s**2 + penalty), target) for penalty in penalties]
-    best = len(shares) - 1 - int(np.argmax(shares[::-1]))  # of equal ones the largest
-    gain = s / (s**2 + penalties[best])
-    kept, operator = s * gain, (vt.T * gain) @ u.T
-    left = target - u @ (kept * (u.T @ target))
-    freedom = len(outcome) - 1 - float(np.sum(2 * kept - kept**2))
-    return Ridge(operator @ target, operator, float(left @ left) / freedom, freedom, shares[best])
+    missed = [_missed(u, s**2 / (s**2 + penalty), target) for penalty in penalties]
+    best = len(missed) - 1 - int(np.argmin(missed[::-1]))  # of equal ones the largest
+    operator = (vt.T * (s / (s**2 + penalties[best]))) @ u.T
+    return Ridge(operator @ target, operator, missed[best], _explained(missed[best], target))
 
 
 def explained_by(predictors: Matrix, outcome: Sample) -> float:
     """Return the share of the variance that linear regression without a penalty foretells of values left out."""
     u = np.linalg.svd(predictors - predictors.mean(axis=0), full_matrices=False)[0]
-    return _explained(u, np.ones(u.shape[1]), outcome - outcome.mean())
+    target = outcome - outcome.mean()
+    return _explained(_missed(u, np.ones(u.shape[1]), target), target)
 
 
-def _explained(u: Matrix, kept: Sample, target: Sample) -> float:
-    """Return 1 - sum of squares missed over that about the mean of the others; `target` has mean zero."""
+def _missed(u: Matrix, kept: Sample, target: Sample) -> float:
+    """Return the mean square by which values left out are missed; `target` has mean zero."""
+    leverage = u**2 @ kept + 1 / len(target)
+    return float(np.mean(((target - u @ (kept * (u.T @ target))) / (1 - leverage)) ** 2))
+
+
+def _explained(missed: float, target: Sample) -> float:
+    """Compare with what the mean of the others misses."""
     n = len(target)
-    leverage = u**2 @ kept + 1 / n
-    missed = (target - u @ (kept * (u.T @ target))) / (1 - leverage)
-    return float(1 - np.sum(missed**2) / np.sum((target * n / (n - 1)) ** 2))
+    return float(1 - missed / np.mean((target * n / (n - 1)) ** 2))

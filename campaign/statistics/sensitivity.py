@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from campaign.statistics.intervals import Interval, Sample
 from campaign.statistics.ridge import Matrix, explained_by
 
-FEWEST = 20
-"""Outcomes from which a correlation has an interval worth its name."""
+FEWEST = 30
+"""Outcomes from which a correlation has an interval worth its name; see `ranking`."""
 
 RESAMPLES, SEED = 1000, 2023
 
@@ -51,7 +51,8 @@ def ranking(means: Matrix, outcome: Sample, confidence: float) -> Ranking:
     outcome : array (n,)
         Run-out, or 1 where a realization slid and 0 where not.
     confidence : float
-        Of the intervals, percentiles of resampled realizations (bootstrap).
+        Of the intervals, percentiles of resampled realizations (bootstrap). From 60 realizations intervals of 90 %
+        hold in 84 to 89 % of campaigns, from 150 in 87 to 90 %.
     """
     return Ranking(
         _resampled(rank_correlations, means, outcome, confidence),
@@ -81,8 +82,9 @@ def _correlations(columns: Matrix) -> Matrix:
 def _resampled(statistic: Statistic, means: Matrix, outcome: Sample, confidence: float) -> tuple[Interval, ...]:
     n = len(outcome)
     draws = np.random.default_rng(SEED).integers(n, size=(RESAMPLES, n))
-    scattered = np.array([statistic(means[draw], outcome[draw]) for draw in draws])
-    lower, upper = np.quantile(scattered, [(1 - confidence) / 2, (1 + confidence) / 2], axis=0)
+    with np.errstate(invalid="ignore"):  # of slides that are rare a resample may hold none, and tells nothing
+        scattered = np.array([statistic(means[draw], outcome[draw]) for draw in draws])
+    lower, upper = np.nanquantile(scattered, [(1 - confidence) / 2, (1 + confidence) / 2], axis=0)
     rows = np.column_stack([statistic(means, outcome), lower, upper]).tolist()
     return tuple(Interval(estimate, low, high, n) for estimate, low, high in rows)
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from campaign.statistics.intervals import Interval, Sample
+from campaign.statistics.intervals import Interval, Sample, normal_quantile
 from campaign.statistics.ridge import Matrix, Ridge, ridge
 
 FEWEST = 50
@@ -65,7 +65,7 @@ def sensitivity_map(field_map: Matrix, runouts: Sample, confidence: float) -> Se
     fit = ridge(logarithms / scatter, runouts)
     step = math.log1p(MORE) / scatter
     change, error = step * fit.coefficients, step * np.sqrt(fit.variance * np.sum(fit.operator**2, axis=1))
-    chance = 2 * special.stdtr(fit.freedom, -np.abs(change) / error)
+    chance = 2 * special.ndtr(-np.abs(change) / error)
 
     def on_map(values: Sample, missing: float) -> Matrix:
         filled = np.full((properties, *boxes), missing)
@@ -91,5 +91,5 @@ def _of_each(step: Sample, properties: int) -> Matrix:
 def _sum(fit: Ridge, step: Sample, confidence: float) -> Interval:
     total = float(step @ fit.coefficients)
     error = math.sqrt(fit.variance) * float(np.linalg.norm(step @ fit.operator))
-    half_width = float(special.stdtrit(fit.freedom, (1 + confidence) / 2)) * error
+    half_width = normal_quantile(confidence) * error
     return Interval(total, total - half_width, total + half_width, fit.operator.shape[1])

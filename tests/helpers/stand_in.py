@@ -21,6 +21,7 @@ from campaign.simulation.contract import Interrupted
 from campaign.simulation.quantities import QUANTITIES, UNITS
 
 SIZES = {"time": 11, "x": 7, "particle": 13}
+RATE = 0.189
 MEASURED = with_dims(QUANTITIES, SIZES)
 
 
@@ -77,6 +78,7 @@ def record(scene: Scene, realization: int) -> Record:
         for name, quantity in MEASURED.items()
     }
     values["final_runout"] = values["final_runout"] + 2.0 * (1.0 - cell) * (1 + 0.1 * realization) + 0.6 * ramped
+    values["final_runout"] += 10.0 * (scene.soil.softening.rate - RATE)
     values["final_runout_mass"] = values["final_runout"]
     values["displaced"] = rng.integers(0, 2, SIZES["particle"], "u1")
     values["wall_time"] = time.process_time()

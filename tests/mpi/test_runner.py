@@ -327,6 +327,61 @@ def test_what_failed_is_not_repeated(tmp_path):
     assert not (tmp_path / "out" / "half-cell" / "records" / "realization-000002.h5").exists()
 
 
+MORE = "campaign.sensitivity_pairs=3"
+
+
+@pytest.fixture(scope="module")
+def with_more(tmp_path_factory):
+    directory = tmp_path_factory.mktemp("with-more") / "out"
+    code, output = campaign(directory, 20, 1, [MORE])
+    assert code == 0, output
+    return dataset(directory)
+
+
+def test_slides_are_repeated_with_more_of_one_input(with_more):
+    """The stand-in runs 10 m farther for each unit of the softening rate, 0.189 m for 10 %; it has no other input."""
+    effects = dict(zip(with_more.input.values, with_more.input_effect.values, strict=True))
+    assert effects.pop("soil.softening.rate") == pytest.approx(0.189)
+    assert len(effects) == 7
+    np.testing.assert_allclose(list(effects.values()), 0.0, atol=1e-12)
+    np.testing.assert_array_equal(with_more.input_pair, [0, 1, 2])
+    assert with_more.input_difference.dims == ("input", "input_pair")
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+def test_an_end_among_the_changed_inputs_leaves_no_trace(with_more, tmp_path, number):
+    directory = tmp_path / "out"
+    process = start(directory, 20, 2, [MORE], seconds=0.1)
+    wait_for_records(directory / "changed-inputs" / "soil.cohesion.mean", 1)
+    os.killpg(process.pid, number)
+    output, _ = process.communicate(timeout=20)
+    if number == signal.SIGTERM:
+        assert process.returncode == 75, output
+        assert "soil.unit_weight" not in dataset(directory).input
+    wait_for_the_end(directory)
+    code, output = campaign(directory, 20, 3, [MORE])
+    assert code == 0, output
+    assert "more softening rate" not in output
+    assert "more unit weight, 22 kN/m^3" in output
+    assert "24 repeated with more of one input" in status(directory)
+    assert_same(dataset(directory), with_more)
+    assert "more unit weight, 22" not in campaign(directory, 20, 2, [MORE])[1]
+
+
+def test_inputs_that_cannot_be_more_are_left_out(tmp_path):
+    code, output = campaign(tmp_path / "out", 20, overrides=[MORE, "soil.cohesion.residual=19 kPa"])
+    assert code == 0, output
+    assert "What more mean residual cohesion changes cannot be estimated." in output
+    assert "soil.cohesion.residual" not in dataset(tmp_path / "out").input
+
+
+def test_a_slope_that_stands_has_no_slides_to_repeat(tmp_path):
+    code, output = campaign(tmp_path / "out", 60, overrides=[MORE], stable=1)
+    assert code == 0, output
+    assert "Inputs:" not in output
+    assert "input_effect" not in dataset(tmp_path / "out")
+
+
 @pytest.mark.parametrize("variable", ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"])
 def test_a_launcher_of_another_mpi_is_found_out(tmp_path, variable):
     environment = {

@@ -57,13 +57,13 @@ def scene_section(scene: Scene, look: FirstLook, strengths: Strengths, realizati
 
 def _ground(axes: Axes, section: Section, cell: float) -> None:
     surface = section.surface
-    outline = _outline(axes, surface, facecolor=GROUND, edgecolor="none")
+    ground = outline(axes, surface, facecolor=GROUND, edgecolor="none")
     x, y = (cell * np.arange(1 + whole_cells(length, cell)) for length in (surface.width, surface.top))
     if max(x.size, y.size) <= MOST_LINES:
         lines = [[(at, 0.0), (at, surface.top)] for at in x] + [[(0.0, at), (surface.width, at)] for at in y]
         mesh = LineCollection(lines, colors=GREY, linewidths=0.25, alpha=0.6)
         axes.add_collection(mesh)
-        mesh.set_clip_path(outline)
+        mesh.set_clip_path(ground)
     section.frame(axes)
     axes.plot(surface.x, surface.y, color=BLACK, linewidth=1.4)
     for wall, top in ((0.0, surface.y[0]), (surface.width, surface.y[-1])):
@@ -101,14 +101,14 @@ def _field(axes: Axes, section: Section, strengths: Strengths, row: SoilProperty
     box = (0.0, columns * grid.resolution, 0.0, rows * grid.resolution)
     image = axes.imshow(values, origin="lower", extent=box, interpolation="nearest", cmap="viridis")
     image.set_clim(np.nanmin(values[is_ground]), np.nanmax(values[is_ground]))
-    image.set_clip_path(_outline(axes, section.surface, facecolor="none", edgecolor="none"))
+    image.set_clip_path(outline(axes, section.surface, facecolor="none", edgecolor="none"))
     section.frame(axes)
     axes.figure.colorbar(image, ax=axes, label=row.unit.shown, aspect=12, pad=0.02)
 
 
-def _outline(axes: Axes, surface: Surface, **look: str) -> Polygon:
+def outline(axes: Axes, surface: Surface, **look: str) -> Polygon:
     """Add the ground as a polygon."""
     corners = [(0.0, 0.0), *zip(surface.x, surface.y, strict=True), (surface.width, 0.0)]
-    outline = Polygon(corners, closed=True, **look)
-    axes.add_patch(outline)
-    return outline
+    ground = Polygon(corners, closed=True, **look)
+    axes.add_patch(ground)
+    return ground

@@ -1,0 +1,158 @@
+"""Which inputs matter, in sentences and rows, for the terminal and the report."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from campaign.fields.properties import BY_NAME, value_of
+from campaign.results.results import Results
+from campaign.results.sensitivity import effects_of, map_of, ranking_of
+from campaign.scene.inputs import BY_KEY, MORE, raised, shown
+from campaign.statistics import sensitivity
+from campaign.statistics.intervals import Interval
+from campaign.statistics.sensitivity import Ranking
+from campaign.statistics.sensitivity_map import SensitivityMap
+from campaign.statistics.wording import chance
+
+TENTH = f"{100 * MORE:g} % more"
+
+NAMED = 3
+"""Inputs that are named in a sentence."""
+
+
+UNKNOWN = "not known: the runs failed or a wall of the model was in their way"
+
+
+class EffectRow(NamedTuple):
+    """An input, its values, what more of it changes, and what one standard deviation does where the scene gives one."""
+
+    name: str
+    values: str
+    change: str
+    pairs: str
+    per_deviation: str
+
+
+class PropertyRow(NamedTuple):
+    """A random property: correlation and regression of the run-out, and the change by more of it everywhere."""
+
+    name: str
+    correlation: str
+    regression: str
+    everywhere: str
+
+
+def sentences(results: Results) -> list[str]:
+    """Return what can be said about the inputs, the most important first."""
+    named = names(results)
+    told = [
+        _largest(results),
+        _followed("Whether the slope slides", ranking_of(results.data, "slide"), named),
+        _followed("The run-out of a slide", ranking_of(results.data, "runout"), named),
+        _mapped(results, map_of(results.data)),
+    ]
+    return [sentence for sentence in told if sentence] or [_nothing()]
+
+
+def names(results: Results) -> list[str]:
+    """Return what the random properties are called."""
+    return [BY_NAME[name].long_name for name in results.data["property"].values] if "property" in results.data else []
+
+
+def effect_rows(results: Results) -> list[EffectRow]:
+    """Return a row for each input, that with the largest effect first."""
+    found = effects_of(results)
+    return [] if found is None else [_effect_row(results, key, effect) for key, effect in found.ranked().items()]
+
+
+def property_rows(results: Results) -> list[PropertyRow]:
+    """Return a row for each random property; without enough slides there is none."""
+    ranking, found = ranking_of(results.data, "runout"), map_of(results.data)
+    if ranking is None:
+        return []
+    everywhere = [""] * len(ranking.correlation) if found is None else [_changed(each) for each in found.everywhere]
+    rows = zip(names(results), ranking.correlation, ranking.regression, everywhere, strict=True)
+    return [PropertyRow(name, _signed(alone), _signed(joint), total) for name, alone, joint, total in rows]
+
+
+def _effect_row(results: Results, key: str, effect: Interval) -> EffectRow:
+    changed, scene = BY_KEY[key], results.scene
+    value, cov = value_of(scene, key) or 0.0, value_of(scene, changed.cov_key) if changed.cov_key else None
+    values = f"{shown(raised(scene, changed), changed)} instead of {shown(value, changed)}"
+    deviation = f"{cov / MORE * effect.estimate:+.2f} m for {100 * cov:g} %" if cov and effect.n else ""
+    return EffectRow(changed.name, values, _changed(effect), str(effect.n), deviation)
+
+
+def _largest(results: Results) -> str:
+    """Name the inputs that change the run-out most."""
+    found = effects_of(results)
+    known = {} if found is None else found.known()
+    if not known:
+        return ""
+    (key, effect), *others = [*known.items()][:NAMED]
+    then = " and ".join(f"{BY_KEY[other].name}, {_changed(each)}" for other, each in others)
+    return (
+        f"Of {len(known)} inputs, each raised alone by {100 * MORE:g} %, {BY_KEY[key].name} changes the run-out of a "
+        f"slide most, by {_changed(effect)}{f'; next come {then}' if then else ''}. {effect.n} "
+        f"{'slides were' if effect.n > 1 else 'slide was'} computed again for each."
+    )
+
+
+def _followed(what: str, ranking: Ranking | None, named: list[str]) -> str:
+    """Say which property an outcome follows most closely."""
+    if ranking is None:
+        return ""
+    place = int(np.argmax([abs(each.estimate) for each in ranking.correlation]))
+    closest = ranking.correlation[place]
+    follows = f"follows the {named[place]} of the ground that moves most closely" if len(named) > 1 else ""
+    follows = follows or f"follows the {named[place]} of the ground that moves"
+    if closest.lower <= 0 <= closest.upper:
+        return f"{what} does not visibly follow the mean of a random property over the ground that moves."
+    bounds = f"{closest.estimate:+.2f}, between {closest.lower:+.2f} and {closest.upper:+.2f}"
+    return f"{what} {follows} (rank correlation {bounds}); such means explain {_share(ranking.explained)}."
+
+
+def _mapped(results: Results, found: SensitivityMap | None) -> str:
+    """Say how much it matters where the ground is strong, and where most."""
+    if found is None:
+        return ""
+    if found.explained <= 0 or not found.is_clear.any():
+        return "Where the ground is strong does not visibly matter to the run-out."
+    clear = np.where(found.is_clear, found.change, 0.0)
+    places = [np.unravel_index(extreme(clear), clear.shape) for extreme in (np.argmin, np.argmax)]
+    told = [_at(results, place, float(clear[place])) for place in places if clear[place]]
+    width, height = (float(np.diff(results.data[f"box_{axis}"].values[:2])[0]) for axis in "xy")
+    return (
+        f"Where the ground is strong explains {_share(found.explained)}: {TENTH} in a box of {width:.1f} m by "
+        f"{height:.1f} m changes the run-out by {' and '.join(told)}."
+    )
+
+
+def _at(results: Results, place: tuple[np.intp, ...], change: float) -> str:
+    number, row, column = place
+    x, y = float(results.data["box_x"][column]), float(results.data["box_y"][row])
+    return f"{change:+.2f} m ({names(results)[number]} around x = {x:.0f} m, {y:.0f} m above the base)"
+
+
+def _share(explained: float) -> str:
+    return f"{chance(explained)} of the scatter" if explained > 0 else "nothing of the scatter"
+
+
+def _nothing() -> str:
+    return (
+        f"It takes {sensitivity.FEWEST} slides to say which property of the soil matters, and one slide and "
+        "campaign.sensitivity_pairs to say what the other inputs do."
+    )
+
+
+def _changed(change: Interval) -> str:
+    """Write a change of the run-out with its bounds, "-1.39 m (-1.58 to -1.20 m)"."""
+    if change.n == 0:
+        return UNKNOWN
+    bounds = f"{change.lower:+.2f} to {change.upper:+.2f} m" if change.is_known else "too few slides for an interval"
+    return f"{change.estimate:+.2f} m ({bounds})"
+
+
+def _signed(number: Interval) -> str:
+    """Write a correlation or a coefficient with its bounds."""
+    return f"{number.estimate:+.2f} ({number.lower:+.2f} to {number.upper:+.2f})"

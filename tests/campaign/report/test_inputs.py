@@ -1,0 +1,72 @@
+"""Sentences, rows and figures on the inputs say what the dataset says, and that there is too little where there is."""
+
+import matplotlib.image
+import numpy as np
+import pytest
+from soil_campaign import soil_campaign
+
+from campaign.report.figures import inputs, sensitivity
+from campaign.report.figures.section import section_of
+from campaign.report.figures.style import NotDrawableError, in_style
+from campaign.report.inputs import effect_rows, property_rows, sentences
+from campaign.results.results import Results
+from campaign.results.sensitivity import effects_of
+
+
+@pytest.fixture(scope="module")
+def results():
+    return soil_campaign(80)
+
+
+@pytest.fixture(scope="module")
+def bare(results):
+    """The same without what this is about."""
+    told = [name for name in results.data if str(name).startswith(("input", "sensitivity", "runout_", "slide_"))]
+    return Results(results.data.drop_vars(told), results.scene)
+
+
+def drawings(results):
+    section = section_of(results.scene, results.runouts)
+    return [lambda: inputs.ranking(results), lambda: sensitivity.sensitivity(results, section)]
+
+
+def test_the_input_with_the_largest_effect_is_named_first(results):
+    effect = effects_of(results).effects["soil.softening.rate"]
+    told = sentences(results)
+    assert told[0].startswith(
+        "Of 8 inputs, each raised alone by 10 %, softening rate changes the run-out of a slide most"
+    )
+    assert f"{effect.estimate:+.2f} m ({effect.lower:+.2f} to {effect.upper:+.2f} m)" in told[0]
+    assert "follows the peak cohesion of the ground that moves most closely" in told[1]
+    assert "(peak cohesion around x = " in told[2]
+
+
+def test_rows_are_in_the_order_of_effect(results):
+    rows = effect_rows(results)
+    assert rows[0].name == "softening rate"
+    sizes = [abs(float(row.change.split()[0])) for row in rows]
+    assert sizes == sorted(sizes, reverse=True)
+    cohesion = next(row for row in rows if row.name == "mean peak cohesion")
+    assert (cohesion.values, cohesion.pairs) == ("22 kPa instead of 20 kPa", "4")
+    assert cohesion.per_deviation == f"{cohesion.change.split()[0]} m for 10 %"
+    assert [row.name for row in property_rows(results)] == ["peak cohesion", "peak friction angle"]
+
+
+def test_too_little_is_said_in_a_sentence(bare):
+    assert sentences(bare) == [
+        "It takes 30 slides to say which property of the soil matters, and one slide and campaign.sensitivity_pairs to "
+        "say what the other inputs do."
+    ]
+    assert effect_rows(bare) == property_rows(bare) == []
+    for draw in drawings(bare):
+        with pytest.raises(NotDrawableError, match="It needs"):
+            draw()
+
+
+@pytest.mark.parametrize("number", [0, 1])
+def test_a_figure_has_something_on_it(results, number, tmp_path):
+    with in_style():
+        illustration = drawings(results)[number]()
+        illustration.figure.savefig(tmp_path / "figure.png", dpi=30)
+    assert np.ptp(matplotlib.image.imread(tmp_path / "figure.png")[..., :3]) > 0.5
+    assert "80" in illustration.caption
