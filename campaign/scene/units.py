@@ -38,6 +38,9 @@ UNIT = re.compile(rf"{NAME}{POWER}(?:\s*[*/·]\s*{NAME}{POWER})*")
 """A unit is names, each with a power of one digit or none, joined by signs of multiplication or division."""
 FACTOR = re.compile(rf"([*/·]?)\s*({NAME}){POWER}")
 
+STIFF = 1e7
+"""Pressure in Pa from which on people write MPa."""
+
 SMALLEST, LARGEST = 1e-15, 1e15
 """Magnitudes of a number in SI, other than 0; those of a soil are far within, and none overflows in a product."""
 
@@ -89,7 +92,7 @@ def of_a_size(value: float, si_unit: str = "") -> float:
 
 def shown_in_unit(value: float, kind: Kind) -> str:
     """Write a value given in SI in the unit in which people read it, that of the kind's example."""
-    unit = kind.example.partition(" ")[2]
+    unit = "MPa" if kind is PRESSURE and abs(value) >= STIFF else kind.example.partition(" ")[2]
     return f"{_registry().Quantity(value, kind.si_unit).to(_known_unit(unit, kind)).magnitude:.6g} {unit}"
 
 

@@ -94,6 +94,7 @@ def test_any_text_is_a_quantity_or_a_sentence(text: str) -> None:
     ("value", "kind", "text"),
     [
         (25e3, PRESSURE, "25 kPa"),
+        (110e6, PRESSURE, "110 MPa"),
         (pi / 18.0, ANGLE, "10 deg"),
         (20e3, UNIT_WEIGHT, "20 kN/m^3"),
         (0.5, LENGTH, "0.5 m"),
