@@ -13,9 +13,6 @@ from campaign.statistics.stopping import RARE
 from campaign.statistics.total import has_mesh_error
 from campaign.statistics.wording import chance, chance_of_slide, chances, metres
 
-FAR = 0.95
-"""The share of slides that stop before the distance named in the answer."""
-
 OUTCOMES = {
     Status.slid: "slid and came to rest",
     Status.no_slide: "did not slide (nothing displaced farther than slide.failed)",
@@ -121,10 +118,10 @@ def _spread(results: Results) -> str:
 
 
 def _farthest(results: Results) -> str:
-    far = estimates.quantile_runout(results, FAR)
+    far = estimates.quantile_runout(results, estimates.FAR)
     if not far.is_known:
         return ""
-    return f"{100 * FAR:g} % of the slides stop within {far.estimate:.2f} m ({metres(far)})."
+    return f"{100 * estimates.FAR:g} % of the slides stop within {far.estimate:.2f} m ({metres(far)})."
 
 
 def _comparison(results: Results) -> str:

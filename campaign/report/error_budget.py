@@ -1,16 +1,11 @@
-"""How sure the answer of a campaign is, and on what it rests, for the terminal and the report."""
+"""How sure the answer of a campaign is, for the terminal and the report."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from campaign.fields.properties import BY_NAME
 from campaign.report import estimates
 from campaign.results.results import Results
-from campaign.scene import Scene
-from campaign.scene.sections import RandomField
-from campaign.scene.softening import known_rate, softening_words
-from campaign.simulation.solver_model import softening_rate
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import failure_bounds
 from campaign.statistics.total import has_mesh_error
@@ -45,24 +40,6 @@ def error_budget(results: Results) -> list[Row]:
     ]
 
 
-def modelling_choices(scene: Scene) -> dict[str, str]:
-    """Return the choices that the answer rests on and that no interval contains, by name."""
-    numerics, field = scene.numerics, scene.field
-    kind = field.length_kind.replace("-", " ")
-    release = "elastic stresses at rest under gravity, then the strength at time 0"
-    ramp = f"gravity grows over {numerics.ramp_time:g} s while the ground yields"
-    return {
-        "Soil law": scene.soil.law,
-        "Release": f"{numerics.gravity}: {ramp if numerics.gravity == 'ramp' else release}",
-        "Softening": _softening(scene),
-        "Volumetric locking": f"treatment: {numerics.locking}",
-        "Method": f"{numerics.basis} basis, {numerics.stress_update} stress update, cells of {numerics.cell:g} m with "
-        f"{numerics.particles_per_cell} particles, FLIP share {numerics.flip:g}",
-        "Correlation": f"{field.correlation}, {kind} {field.horizontal:g} m along and {field.vertical:g} m across",
-        "Cross-correlation": _cross_correlation(field),
-    }
-
-
 def _chance(results: Results) -> list[Row]:
     probability = estimates.slide_probability(results)
     value = chance(probability.estimate) if probability.n else NO_RESULT
@@ -87,7 +64,7 @@ def _exceedance(results: Results) -> list[Row]:
     distance = results.deterministic
     if not distance > 0 or not results.outcomes.usable:
         return []
-    farther = f"more than {distance:.2f} m (deterministic)"
+    farther = f"more than {distance:.2f} m, the run-out with mean strengths"
     rows = [_probability(f"probability of {farther}", estimates.exceedance(results, distance))]
     if 0 < results.outcomes.slides < results.outcomes.usable:
         rows.append(_probability("the same of a slide", estimates.exceedance_given_sliding(results, distance)))
@@ -102,7 +79,11 @@ def _walls(results: Results) -> list[Row]:
     hindered, slides = results.outcomes.hindered, results.outcomes.slides
     if not hindered:
         return []
-    return [Row("Walls", "mean run-out of a slide", "at least", f"{hindered} slides reached a wall", str(slides))]
+    return [
+        Row(
+            "Walls", "mean run-out of a slide", "at least", f"a wall stopped {hindered} of {slides} slides", str(slides)
+        )
+    ]
 
 
 def _failures(results: Results) -> list[Row]:
@@ -136,13 +117,19 @@ def _discretisation(results: Results) -> Row:
 
 
 def _release(results: Results) -> Row:
-    name, found, own = "deterministic run-out", results.release, results.deterministic
+    name, found, own = "run-out with mean strengths", results.release, results.deterministic
     if found is None or not np.isfinite(found.runout(results.front)) or not np.isfinite(own):
         return Row("Release", name, NOT_ESTIMATED, "it takes this run with either release protocol", "")
     other = found.runout(results.front)
     share = f" ({100 * (other / own - 1):+.1f} %)" if own > 0 else ""
     both = f'{own:.2f} m with "{results.scene.numerics.gravity}", {other:.2f} m with "{found.other}"'
-    return Row("Release", f'{name}, changed by gravity = "{found.other}"', f"{other - own:+.2f} m{share}", both, "")
+    return Row(
+        "Release",
+        f'{name}, changed by the other way to begin, gravity = "{found.other}"',
+        f"{other - own:+.2f} m{share}",
+        both,
+        "",
+    )
 
 
 def _energy(results: Results) -> Row:
@@ -152,26 +139,6 @@ def _energy(results: Results) -> Row:
         return Row("Energy balance", name, "no slide" if results.outcomes.usable else NO_RESULT, "", "0")
     median, largest = f"median {100 * np.median(errors):.2g} %", f"at most {100 * errors.max():.2g} %"
     return Row("Energy balance", name, median, largest, str(errors.size))
-
-
-def _cross_correlation(field: RandomField) -> str:
-    pairs = [
-        f"{rho:g} between {BY_NAME[one].long_name} and {BY_NAME[other].long_name}"
-        for (one, other), rho in field.cross_correlations().items()
-    ]
-    return f"{', '.join(pairs)} ({field.cross_correlation_of} fields)" if pairs else "none"
-
-
-def _softening(scene: Scene) -> str:
-    softening, rate, known = scene.soil.softening, softening_rate(scene), known_rate(scene.soil.softening)
-    if softening.law == "none" or known is None:
-        return "none"
-    if softening.internal_length is not None:
-        average = f"{softening.law} with plastic strain averaged over {softening.internal_length:g} m"
-        cell = scene.numerics.cell
-        coarse = f"; rate {rate:.3g} on cells of {cell:g} m for the same effect" if rate > known else ""
-        return f"{average}: {softening_words(softening)}{coarse}"
-    return f"{softening.law} with plastic strain, rate {rate:.3g} at this cell: {softening_words(softening)}"
 
 
 def _known(value: float, form: str, unit: str) -> str:

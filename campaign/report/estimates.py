@@ -5,6 +5,9 @@ from campaign.statistics import proportions
 from campaign.statistics.intervals import Interval, mean_interval, quantile_interval, std_interval
 from campaign.statistics.total import total_interval
 
+FAR = 0.95
+"""The share of slides that stop before the distance named in the answer."""
+
 
 def slide_probability(results: Results) -> Interval:
     """Return the probability that the slope slides."""
@@ -29,6 +32,11 @@ def std_runout(results: Results) -> Interval:
 def quantile_runout(results: Results, share: float) -> Interval:
     """Return the distance in m within which a share of the slides stops."""
     return quantile_interval(results.slide_runouts, share, results.confidence)
+
+
+def total_quantile(results: Results, share: float) -> Interval:
+    """Return the same with sampling and, where that is known, mesh error; a bound may be NaN for itself."""
+    return total_interval(quantile_runout(results, share), results.discretisation)
 
 
 def exceedance(results: Results, distance: float) -> Interval:

@@ -21,6 +21,7 @@ class Snapshot(NamedTuple):
     y: Array  # (n,) m
     displacement: Array  # (n,) m from the ground at rest
     plastic_strain: Array  # (n,)
+    volume: Array  # (n,) m2
     runout: float  # m
 
 
@@ -54,6 +55,10 @@ class ReplayedSlide:
         """The last snapshot."""
         return self.snapshots[-1]
 
+    def at(self, time: float) -> Snapshot:
+        """Return the last snapshot not later than a time (s), or the first one."""
+        return next((shot for shot in reversed(self.snapshots) if shot.time <= time + 1e-9), self.snapshots[0])
+
 
 def replay(ground: Ground, realization: int, times: Sequence[float] = ()) -> ReplayedSlide:
     """Simulate a realization again and take snapshots at the output times nearest to `times` (s), and at the end."""
@@ -79,4 +84,4 @@ def snapshot(march: March, front: Front) -> Snapshot:
     moved = displacement(now, reference)
     measure = runout_mass if front == "mass" else runout
     ran = measure(now, reference, march.model.surface, march.model.criteria)
-    return Snapshot(march.time, now.x.copy(), now.y.copy(), moved, now.plastic_strain.copy(), ran)
+    return Snapshot(march.time, now.x.copy(), now.y.copy(), moved, now.plastic_strain.copy(), now.volume.copy(), ran)

@@ -3,7 +3,8 @@
 from textwrap import fill
 
 from campaign.report.answer import answer, reasons_for_doubt
-from campaign.report.error_budget import Row, error_budget, modelling_choices
+from campaign.report.choices import modelling_choices
+from campaign.report.error_budget import Row, error_budget
 from campaign.report.inputs import sentences
 from campaign.results.results import Results
 from campaign.statistics.receptors import receptor_estimates
@@ -24,7 +25,7 @@ def summary(results: Results) -> str:
             f"Error budget at {100 * results.confidence:g} % confidence",
             *(f"  {row.source:16}{_words(row)}" for row in error_budget(results)),
             "What the answer rests on",
-            *(f"  {name:20}{choice}" for name, choice in modelling_choices(results.scene).items()),
+            *(f"  {name:27}{choice}" for name, choice in modelling_choices(results.scene).items()),
         ]
     )
 

@@ -13,7 +13,7 @@ TOTAL = (
 
 
 def total_interval(mean: Interval, found: Discretisation | None) -> Interval:
-    """Return the mean run-out with one interval for sampling and mesh.
+    """Return a run-out, the mean or a quantile, with one interval for sampling and mesh.
 
     With cells of size h the expected run-out is M(h). The counted mean estimates M(h) within a; the mean change c in a
     few realizations repeated with half the cell estimates M(h/2) - M(h) within b. So mean + c estimates M(h/2), and
@@ -27,7 +27,8 @@ def total_interval(mean: Interval, found: Discretisation | None) -> Interval:
     Parameters
     ----------
     mean : Interval
-        Counted with the scene's own cell, in m.
+        Counted with the scene's own cell, in m. A quantile is assumed to change with the mesh as the mean does; its
+        arms, from the estimate to either bound, may differ.
     found : Discretisation or None
         What half the cell changes.
 
@@ -40,8 +41,12 @@ def total_interval(mean: Interval, found: Discretisation | None) -> Interval:
         return mean
     change = found.interval
     centre = mean.estimate + change.estimate
-    half_width = math.hypot(mean.half_width, change.half_width) + abs(change.estimate)
-    return Interval(centre, max(0.0, centre - half_width), centre + half_width, mean.n)
+    below, above = (
+        math.hypot(arm, change.half_width) + abs(change.estimate)
+        for arm in (mean.estimate - mean.lower, mean.upper - mean.estimate)
+    )
+    lower = centre - below
+    return Interval(centre, 0.0 if lower < 0.0 else lower, centre + above, mean.n)
 
 
 def has_mesh_error(found: Discretisation | None) -> bool:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from campaign.report.figures.style import BLACK, BLUE, ORANGE, Illustration, letter, need, new_figure
+from campaign.report.figures.style import BLACK, BLUE, COLUMN, ORANGE, Illustration, letter, need, new_figure
 from campaign.report.inputs import TENTH, names
 from campaign.results.results import Results
 from campaign.results.sensitivity import effects_of, ranking_of
@@ -24,7 +24,7 @@ def ranking(results: Results) -> Illustration:
     need(effects or soil, f"It needs {FEWEST} slides, or slides repeated with one input changed.")
     rows = [len(effects.known())] if effects else []
     rows += [2 * len(found.correlation) for found in soil.values()]
-    figure, panels = new_figure(sum(rows) * BAR + len(rows) * OVERHEAD, len(rows), height_ratios=rows)
+    figure, panels = new_figure(sum(rows) * BAR + len(rows) * OVERHEAD, len(rows), COLUMN, height_ratios=rows)
     titles, captions, rest = [], [], iter(panels)
     if effects:
         captions.append(_inputs(next(rest), effects))

@@ -10,7 +10,7 @@ from matplotlib.patches import Polygon
 
 from campaign.fields.properties import BY_NAME, SoilProperty
 from campaign.fields.strengths import Strengths
-from campaign.report.figures.section import Section
+from campaign.report.figures.section import SKY, Section
 from campaign.report.figures.style import BLACK, BLUE, GREY, ORANGE, WIDTH, Illustration, in_style, letter, new_figure
 from campaign.scene import Scene
 from campaign.scene.first_look import FirstLook, look_at
@@ -40,7 +40,7 @@ def save(scene: Scene, realization: int, path: Path) -> None:
 
 def scene_section(scene: Scene, look: FirstLook, strengths: Strengths, realization: int) -> Illustration:
     """Draw the section of a scene, and below it the strengths of a realization."""
-    section = Section(look.surface, scene.numerics.cell, look.surface.width)
+    section = Section(look.surface, scene.numerics.cell, look.surface.width, SKY * look.surface.top)
     fields = [BY_NAME[name] for name in strengths.names]
     height = (1 + len(fields)) * (0.85 * WIDTH * section.panel_height + OVERHEAD)
     figure, panels = new_figure(min(height, TALLEST), 1 + len(fields), sharex=True)

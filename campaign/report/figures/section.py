@@ -1,17 +1,16 @@
-"""Cross-sections: the particles as the squares they stand for, the ground before the slide, and the run-out."""
+"""What cross-sections of a campaign have in common: the ground before the slide, toe, receptors and run-out."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import PolyCollection
-from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator
 
-from campaign.report.figures.style import BLACK, ORANGE
+from campaign.report.figures.style import BLACK, GREY, ORANGE
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.sections import Receptor
 from campaign.simulation.solver_model import Array
 from solver.grid import particle_spacing
 from solver.surface import Surface
@@ -19,14 +18,11 @@ from solver.surface import Surface
 MARGIN = 0.08
 """Of the width shown, beyond the longest run-out."""
 
+SKY = 1.12
+"""Of the highest ground: the height shown."""
+
 ABOVE_DEPOSIT = 0.65
 """Of the height of the slope: where run-outs are written."""
-
-SEAM = 1.06
-"""Squares are drawn so much larger that no seams show between them."""
-
-MOVED = 1.5
-"""And so much larger again after a slide, which stretches the ground."""
 
 
 @dataclass(frozen=True)
@@ -39,45 +35,41 @@ class Section:
         The ground before the slide.
     side : float
         Of the square that a particle stands for, in m.
-    right : float
+    right, top : float
         Where the drawings end, in m.
+    receptors : sequence of Receptor
+        The places asked about.
     """
 
     surface: Surface
     side: float
     right: float
+    top: float
+    receptors: Sequence[Receptor] = ()
+
+    @property
+    def corners(self) -> list[tuple[float, float]]:
+        """Corners of the ground before the slide in m."""
+        return list(zip(self.surface.x.tolist(), self.surface.y.tolist(), strict=True))
 
     @property
     def panel_height(self) -> float:
         """Height over width of what is shown."""
-        return 1.12 * self.surface.top / self.right
-
-    def draw(
-        self,
-        axes: Axes,
-        x: Array,
-        y: Array,
-        values: Array,
-        colours: str,
-        limits: tuple[float, float],
-        size: float = 1.0,
-    ) -> PolyCollection:
-        """Draw particles at `x`, `y` (m), coloured by their values, `size` times as large as they were at first."""
-        half = 0.5 * size * SEAM * self.side
-        corners = np.array([(-half, -half), (half, -half), (half, half), (-half, half)])
-        squares = np.column_stack([x, y])[:, None, :] + corners
-        particles = PolyCollection(
-            list(squares), array=values, cmap=colours, norm=Normalize(*limits), edgecolors="none", antialiased=False
-        )
-        axes.add_collection(particles)
-        self.frame(axes)
-        return particles
+        return self.top / self.right
 
     def frame(self, axes: Axes) -> None:
-        """Set equal scales and draw the ground before the slide."""
+        """Set equal scales, draw the ground before the slide, and mark the receptors."""
         axes.plot(self.surface.x, self.surface.y, color=BLACK, linestyle=(0, (4, 2)), linewidth=0.9)
-        axes.set(xlim=(0, self.right), ylim=(0, 1.12 * self.surface.top), aspect="equal", ylabel="elevation (m)")
+        axes.set(xlim=(0, self.right), ylim=(0, self.top), aspect="equal", ylabel="elevation (m)")
         axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+        self.mark_receptors(axes, 0.5 * self.top)
+
+    def mark_receptors(self, axes: Axes, height: float) -> None:
+        """Mark the places asked about, from zero to a height in the unit of the panel."""
+        for receptor in self.receptors:
+            near, far = receptor.x
+            axes.fill_between([near, far], 0.0, height, color=GREY, alpha=0.3, linewidth=0)
+            axes.vlines([near, far], 0.0, height, color=GREY, linewidth=0.7, linestyle=":")
 
     def mark_runout(self, axes: Axes, runout: float) -> None:
         """Mark how far the front came beyond the toe, in m."""
@@ -92,9 +84,11 @@ class Section:
 
 
 def section_of(scene: Scene, runouts: Sequence[float] | Array) -> Section:
-    """Return the section of a scene, wide enough for these run-outs (m)."""
+    """Return the section of a scene, wide enough for these run-outs (m) and for the places asked about."""
     surface = surface_of(scene.geometry)
     known = np.asarray(runouts)[np.isfinite(runouts)]
     reach = surface.toe[0] + float(np.max(known, initial=0.0))
+    farthest = max([reach, *(receptor.x[1] for receptor in scene.receptor)])
     side = particle_spacing(scene.numerics.cell, scene.numerics.particles_per_cell)
-    return Section(surface, float(side), min(surface.width, (1 + MARGIN) * reach + 2 * side))
+    right = min(surface.width, (1 + MARGIN) * farthest + 2 * side)
+    return Section(surface, float(side), right, SKY * surface.top, scene.receptor)

@@ -6,7 +6,7 @@ from matplotlib.collections import QuadMesh
 
 from campaign.report.figures.scene_section import outline
 from campaign.report.figures.section import Section
-from campaign.report.figures.style import BLACK, WIDTH, Illustration, NotDrawableError, letter, need, new_figure
+from campaign.report.figures.style import BLACK, COLUMN, Illustration, NotDrawableError, letter, need, new_figure
 from campaign.report.inputs import TENTH, names
 from campaign.results.results import Results
 from campaign.results.sensitivity import map_of
@@ -26,7 +26,7 @@ def sensitivity(results: Results, section: Section) -> Illustration:
     need(found.explained > 0, "The place of strong ground foretells nothing of the run-out.")
     named = names(results)
     rows = len(named)
-    figure, panels = new_figure(rows * (0.86 * WIDTH * section.panel_height + 0.27) + 0.85, rows, sharex=True)
+    figure, panels = new_figure(rows * (0.86 * COLUMN * section.panel_height + 0.27) + 0.85, rows, COLUMN, sharex=True)
     limit = float(np.nanmax(np.abs(found.change)))
     boxes = results.data["box_x"].values, results.data["box_y"].values
     for number, axes in enumerate(panels):

@@ -5,15 +5,20 @@ from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import matplotlib as mpl
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 WIDTH = 7.0
-"""Of a figure, in inches: the text width of a page."""
+"""Of a figure that stands alone, in inches: the text width of a page."""
+
+COLUMN = 5.0
+"""Of a figure in a column of the report, in inches; at this width its text is legible on a telephone as well."""
 
 # The palette of Okabe and Ito (2008).
 BLUE, ORANGE, GREEN, GREY, BLACK = "#0072B2", "#D55E00", "#009E73", "#8c8c8c", "#000000"
+
+STILL = "#d3d3d3"
+"""Ground that has not moved."""
 
 STYLE: dict[Any, Any] = {
     "font.size": 10,
@@ -59,9 +64,9 @@ def in_style() -> Iterator[None]:
         yield
 
 
-def new_figure(height: float, rows: int = 1, **keywords: Any) -> tuple[Figure, list[Axes]]:
-    """Return an empty figure of a page's width, `height` inches high, and its panels from top to bottom."""
-    figure = Figure(figsize=(WIDTH, height), layout="compressed")
+def new_figure(height: float, rows: int = 1, width: float = WIDTH, **keywords: Any) -> tuple[Figure, list[Axes]]:
+    """Return an empty figure, `height` and `width` in inches, and its panels from top to bottom."""
+    figure = Figure(figsize=(width, height), layout="compressed")
     panels = figure.subplots(rows, squeeze=False, **keywords)
     return figure, list(panels[:, 0])
 
@@ -81,8 +86,3 @@ def need(condition: Any, sentence: str) -> None:
 def need_slides(n: int, fewest: int) -> None:
     """Give up a figure of `n` slides if it takes more."""
     need(n >= fewest, f"It needs {fewest} or more slides, and there {'is' if n == 1 else 'are'} {n or 'none'}.")
-
-
-def upper_limit(values: np.ndarray) -> float:
-    """Return the end of a colour range that 0.5 % of extreme values do not stretch."""
-    return float(np.percentile(values, 99.5)) or 1.0

@@ -11,9 +11,13 @@ from small_campaign import small_scene
 
 import campaign
 from campaign.record import Status
-from campaign.report.figures import distribution, precision
+from campaign.report.figures.convergence import convergence
+from campaign.report.figures.curves import curves
+from campaign.report.figures.exceedance import exceedance
+from campaign.report.figures.histogram import histogram
 from campaign.report.figures.section import section_of
-from campaign.report.figures.style import NotDrawableError, in_style, new_figure, upper_limit
+from campaign.report.figures.stack import upper_limit
+from campaign.report.figures.style import NotDrawableError, in_style, new_figure
 from campaign.results.results import Results
 
 SCENE = small_scene()
@@ -29,7 +33,7 @@ def results(runouts, statuses=None):
         {
             "final_runout": ("realization", np.array(runouts, dtype=float)),
             "final_runout_mass": ("realization", np.array(runouts, dtype=float)),
-            "runout": (("realization", "time"), np.outer(runouts, np.minimum(time / 5, 1))),
+            "runout_mass": (("realization", "time"), np.outer(runouts, np.minimum(time / 5, 1))),
             "settle_time": ("realization", np.full(n, 6.0)),
             "status": ("realization", status),
             "deterministic_runout": ("time", 9.0 * np.minimum(time / 5, 1)),
@@ -46,7 +50,7 @@ def results(runouts, statuses=None):
 
 
 NORMAL = np.random.default_rng(5).normal(9.0, 0.5, 40)
-DRAWINGS = [distribution.curves, distribution.histogram, distribution.exceedance, precision.convergence]
+DRAWINGS = [curves, histogram, exceedance, convergence]
 
 
 @pytest.mark.parametrize("draw", DRAWINGS)
@@ -65,7 +69,7 @@ def test_without_slides_a_sentence_says_so(draw):
         draw(results([0.0, 0.0], [Status.no_slide] * 2))
 
 
-@pytest.mark.parametrize("draw", [distribution.histogram, precision.convergence])
+@pytest.mark.parametrize("draw", [histogram, convergence])
 def test_equal_runouts_have_no_distribution(draw):
     with pytest.raises(NotDrawableError, match="All final run-outs are equal"):
         draw(results([9.5] * 12))
@@ -74,41 +78,38 @@ def test_equal_runouts_have_no_distribution(draw):
 def test_axes_of_every_panel_have_units():
     for draw in DRAWINGS:
         for axes in draw(results(NORMAL)).figure.axes:
-            assert re.search(r"\((m|-|1/m)\)", axes.get_ylabel()), draw.__name__
+            assert re.search(r"\((m|-|%)\)", axes.get_ylabel()), draw.__name__
 
 
 def test_exceedance_is_counted():
-    """Of the run-outs 1, 2, 3, 4 m all are longer than 0.8 m, half than 2 m, none than 4 m."""
-    (axes,) = distribution.exceedance(results([3.0, 1.0, 4.0, 2.0])).figure.axes
+    """Of the run-outs 1, 2, 3, 4 m all are longer than zero, half than 2 m, none than 4 m."""
+    (axes,) = exceedance(results([3.0, 1.0, 4.0, 2.0])).figure.axes
     distance, share = axes.lines[0].get_data()
-    np.testing.assert_allclose(distance[1:5], [1, 2, 3, 4])
-    np.testing.assert_allclose(share[:4], [1.0, 0.75, 0.5, 0.25])
-    assert np.isnan(share[4])
+    np.testing.assert_allclose(distance[:5], [0, 1, 2, 3, 4])
+    np.testing.assert_allclose(share[:5], [1.0, 0.75, 0.5, 0.25, 0.0])
 
 
 def test_exceedance_counts_slopes_that_stay():
-    """Two of four slide, 1 and 2 m far: half run farther than 0.9 m, a quarter than 1 m."""
+    """Two of four slide, 1 and 2 m far: half run farther than zero, a quarter than 1 m."""
     given = results([1.0, 0.5, 2.0, 0.2], [Status.slid, Status.no_slide] * 2)
-    (axes,) = distribution.exceedance(given).figure.axes
+    (axes,) = exceedance(given).figure.axes
     _, share = axes.lines[0].get_data()
     np.testing.assert_allclose(share[:2], [0.5, 0.25])
 
 
 def test_failed_realizations_are_in_no_curve():
     statuses = [Status.slid] * 30 + [Status.crashed] * 10
-    illustration = distribution.curves(results(np.r_[NORMAL[:30], np.full(10, np.nan)], statuses))
+    illustration = curves(results(np.r_[NORMAL[:30], np.full(10, np.nan)], statuses))
     assert len(illustration.figure.axes[0].collections[0].get_segments()) == 30
 
 
 def test_no_quantiles_of_few():
-    labels = {
-        n: distribution.curves(results(NORMAL[:n])).figure.axes[0].get_legend_handles_labels()[1] for n in (19, 20)
-    }
+    labels = {n: curves(results(NORMAL[:n])).figure.axes[0].get_legend_handles_labels()[1] for n in (19, 20)}
     assert ["5 to 95 %" in labels[n] for n in (19, 20)] == [False, True]
 
 
 def test_the_last_point_of_the_convergence_is_the_estimate():
-    mean, std = precision.convergence(results(NORMAL)).figure.axes
+    mean, std = convergence(results(NORMAL)).figure.axes
     assert mean.lines[0].get_ydata()[-1] == pytest.approx(NORMAL.mean())
     assert std.lines[0].get_ydata()[-1] == pytest.approx(NORMAL.std(ddof=1))
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scene_complaints import FRICTION, UNDRAINED, complaint, complaints, written
 
-from campaign.report.error_budget import modelling_choices
+from campaign.report.choices import modelling_choices
 from campaign.scene import load_scene
 from campaign.simulation.ground import prepare
 

@@ -24,6 +24,15 @@ def test_sampling_of_both_and_the_change_itself():
     assert total_interval(MEAN, scattered)[:3] == pytest.approx((10.4, 10.4 - half_width, 10.4 + half_width))
 
 
+def test_the_arms_of_a_quantile_stay_apart():
+    """12 m, 11 to 15 m, and three equal pairs: 12 + 0.6, less 1 + 0.6 and more 3 + 0.6. An unknown bound stays so."""
+    found = pairs(0.6, 0.6, 0.6)
+    assert total_interval(Interval(12.0, 11.0, 15.0, 40), found)[:3] == pytest.approx((12.6, 11.0, 16.2))
+    half_known = total_interval(Interval(12.0, 11.0, np.nan, 40), found)
+    assert half_known.lower == pytest.approx(11.0)
+    assert math.isnan(half_known.upper)
+
+
 @pytest.mark.parametrize("order", [1.0, 1.5, 2.0, 4.0])
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_the_limit_lies_within_at_every_order_of_one_or_more(order, sign):

@@ -5,7 +5,17 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
-from campaign.report.figures.style import BLACK, BLUE, GREEN, Illustration, letter, need, need_slides, new_figure
+from campaign.report.figures.style import (
+    BLACK,
+    BLUE,
+    COLUMN,
+    GREEN,
+    Illustration,
+    letter,
+    need,
+    need_slides,
+    new_figure,
+)
 from campaign.results.results import Results
 from campaign.statistics.intervals import Interval, Sample, mean_interval, std_interval
 from campaign.statistics.verdict import CONVERGED
@@ -24,7 +34,7 @@ def convergence(results: Results) -> Illustration:
     rule, n = results.scene.campaign, results.slide_runouts.size
     need_slides(n, FEWEST)
     need(np.ptp(results.slide_runouts) > 0, "All final run-outs are equal, so nothing converges.")
-    figure, panels = new_figure(5.4, 2, sharex=True)
+    figure, panels = new_figure(4.6, 2, width=COLUMN, sharex=True)
     estimate: list[tuple[str, Callable[[Sample, float], Interval], float]] = [
         ("mean", mean_interval, rule.mean_tolerance),
         ("standard deviation", std_interval, rule.variance_tolerance),
@@ -37,7 +47,7 @@ def convergence(results: Results) -> Illustration:
     _dots(panels, results)
     stopped = _mark_stop(panels, results)
     panels[-1].set(xlabel="realizations", xlim=(0, 1.02 * results.realizations))
-    panels[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4)
+    panels[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
     letter(panels, ["", ""])
     caption = (
         f"(a) Mean and (b) standard deviation of the final run-out as realizations were added, with their "

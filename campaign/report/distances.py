@@ -1,0 +1,91 @@
+"""The probability of a run-out beyond any distance, as a curve that figures, tables and the page's script read."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from campaign.report import estimates
+from campaign.results.results import Results
+from campaign.simulation.solver_model import Array
+from campaign.statistics.intervals import Interval
+from campaign.statistics.wording import chance, chances
+
+ROWS = 8
+"""About so many distances in the table."""
+
+
+class Curve(NamedTuple):
+    """Probabilities of a longer run-out: each holds from its distance to the next one; every array is (k,).
+
+    Attributes
+    ----------
+    distance : ndarray
+        In m from the toe; 0 and the run-outs of the slides.
+    estimate, lower, upper : ndarray
+        With its interval.
+    n : int
+        Realizations behind them.
+    """
+
+    distance: Array
+    estimate: Array
+    lower: Array
+    upper: Array
+    n: int
+
+    def at(self, distance: float) -> Interval:
+        """Return the probability of a run-out beyond a distance (m)."""
+        k = max(0, int(np.searchsorted(self.distance, distance, side="right")) - 1)
+        return Interval(float(self.estimate[k]), float(self.lower[k]), float(self.upper[k]), self.n)
+
+    def words(self, distance: float) -> str:
+        """Return the probability of a run-out beyond a distance (m) with its interval."""
+        share = self.at(distance)
+        return f"{chance(share.estimate)} ({chances(share)})"
+
+
+class Row(NamedTuple):
+    """A line of the table of distances; the last two are the probabilities in words."""
+
+    distance: str
+    beyond: str
+    given_sliding: str
+
+
+def exceedance_curve(results: Results, given_sliding: bool = False) -> Curve:
+    """Return the curve of all realizations, where no slide is a run-out of zero, or of the slides alone."""
+    probability = estimates.exceedance_given_sliding if given_sliding else estimates.exceedance
+    distances = np.concatenate([[0.0], np.unique(results.slide_runouts)])
+    shares = [probability(results, distance) for distance in distances]
+    estimate, lower, upper = np.array([share[:3] for share in shares]).T
+    return Curve(distances, estimate, lower, upper, shares[0].n)
+
+
+def table(results: Results) -> list[Row]:
+    """Return the probabilities of a run-out beyond round distances."""
+    if not results.outcomes.slides:
+        return []
+    curve, given = exceedance_curve(results), exceedance_curve(results, given_sliding=True)
+    return [Row(f"{distance:g} m", curve.words(distance), given.words(distance)) for distance in _round(curve)]
+
+
+def data(results: Results) -> dict[str, list[float]]:
+    """Return both curves for the page's script; probabilities in per cent."""
+    curve, given = exceedance_curve(results), exceedance_curve(results, given_sliding=True)
+    shares = {"all": curve, "sliding": given}
+    columns = {
+        f"{name}_{part}": np.round(100.0 * getattr(each, part), 2).tolist()
+        for name, each in shares.items()
+        for part in ("estimate", "lower", "upper")
+    }
+    return {"distance": np.round(curve.distance, 3).tolist()} | columns
+
+
+def _round(curve: Curve) -> Array:
+    """Return round distances (m) from before the shortest run-out to beyond the longest."""
+    low, high = curve.distance[min(1, curve.distance.size - 1)], curve.distance[-1]
+    raw = max(high - low, 0.1 * high, 1e-3) / (ROWS - 2)
+    power = 10.0 ** np.floor(np.log10(raw))
+    step = power * next(each for each in (1, 2, 5, 10) if each * power >= raw * (1 - 1e-9))
+    first, last = np.floor(low / step), np.ceil(high / step)
+    return np.asarray(np.round(step * np.arange(first, last + 1), 9))

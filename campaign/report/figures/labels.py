@@ -1,0 +1,82 @@
+"""Names of places in a cross-section, written in the sky where they do not run into each other."""
+
+from collections.abc import Callable, Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from campaign.report.figures.svg import on_hover
+from campaign.simulation.solver_model import Array
+
+Clear = Callable[[Array], Array]
+"""Returns the elevation in m above which there is nothing but sky."""
+
+LETTER: Final = 0.078
+"""Width of a letter in inches."""
+
+LINE: Final = 0.19
+"""Height of a line in inches."""
+
+
+class Label(NamedTuple):
+    """What is written about a place: `x`, `y` in m is where its line begins."""
+
+    x: float
+    y: float
+    text: str
+    colour: str
+    hover: str
+
+
+class Placed(NamedTuple):
+    """A label with its room: `left`, `right`, and `bottom` in m."""
+
+    label: Label
+    left: float
+    right: float
+    bottom: float
+    alignment: str
+
+
+def place_labels(labels: Sequence[Label], clear: Clear, scale: float, right: float) -> list[Placed]:
+    """Find room in the sky for each label, where `scale` inches are one metre and the drawing ends at `right` (m)."""
+    placed: list[Placed] = []
+    for label in sorted(labels, key=lambda each: -each.x):
+        placed.append(_find(label, clear, scale, right, placed))
+    return placed
+
+
+def highest(placed: Sequence[Placed], scale: float) -> float:
+    """Return the elevation in m that labels take up."""
+    return max((each.bottom + LINE / scale for each in placed), default=0.0)
+
+
+def write_labels(axes: Axes, placed: Sequence[Placed], scale: float) -> None:
+    """Write labels where there is room for them, and join them to their places."""
+    for label, _, _, bottom, alignment in placed:
+        line = axes.vlines(label.x, label.y, bottom, color=label.colour, linewidth=1.0)
+        x = label.x + (0.04 / scale if alignment == "left" else -0.04 / scale)
+        text = axes.text(x, bottom, label.text, color=label.colour, ha=alignment, va="bottom", fontsize=9)
+        axes.plot(label.x, label.y, "o", color=label.colour, markersize=3.5)
+        on_hover(line, label.hover)
+        on_hover(text, label.hover)
+
+
+def _find(label: Label, clear: Clear, scale: float, right: float, taken: Sequence[Placed]) -> Placed:
+    """Return the lowest line in the sky that is free, to the right of the place if there is room."""
+    width, line = (LETTER * len(label.text) + 0.08) / scale, LINE / scale
+    alignment = "left" if label.x + width <= right else "right"
+    left = label.x if alignment == "left" else label.x - width
+    over = np.linspace(max(left, 0.0), min(left + width, right), 20)
+    place = Placed(label, left, left + width, float(clear(over).max()) + 0.7 * line, alignment)
+    while any(_overlap(place, other, line) for other in taken):
+        place = place._replace(bottom=place.bottom + 0.25 * line)
+    return place
+
+
+def _overlap(one: Placed, other: Placed, line: float) -> bool:
+    """Whether the text of a label would run into another one, or into the line from there to its place."""
+    beside = one.right < other.left or other.right < one.left
+    is_crossed = one.left < other.label.x < one.right and one.bottom < other.bottom
+    return is_crossed or (not beside and abs(one.bottom - other.bottom) < line)

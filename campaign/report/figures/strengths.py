@@ -1,0 +1,52 @@
+"""The random soil of a realization."""
+
+import numpy as np
+
+from campaign.fields.properties import BY_NAME
+from campaign.report.figures.particles import Scale, draw_lattice
+from campaign.report.figures.section import Section
+from campaign.report.figures.stack import colour_bar, listing, stack
+from campaign.report.figures.style import Illustration, letter
+from campaign.report.snapshots import ReplayedSlide
+from campaign.simulation.ground import Ground
+
+
+def strengths(section: Section, ground: Ground, slide: ReplayedSlide) -> Illustration:
+    """Draw the random soil properties where the particles were at first (figure 4 of the paper)."""
+    drawn, lattice, k = ground.random_properties, ground.lattice, slide.realization
+    shown = lattice.x < section.right
+    figure, panels = stack(section, len(drawn), colour_bars=len(drawn))
+    for panel, row in zip(panels, drawn, strict=True):
+        values = slide.soil[row.name] * row.unit.shown_per_si
+        low, high = (float(np.percentile(values, share)) for share in (0.5, 99.5))
+        scale = Scale("cividis", low, max(high, low + 1e-9))
+        draw_lattice(panel, lattice.x[shown], lattice.y[shown], values[shown], scale, section.side)
+        section.frame(panel)
+        colour_bar(figure, [panel], scale, f"{row.long_name} ({row.unit.shown})", extend="both")
+    letter(panels, [row.long_name for row in drawn])
+    caption = (
+        f"The random soil of realization {k}, the slide with the median run-out, before it slid. Dark is weak."
+        f"{_correlations(ground, slide)}{_raised(slide)}"
+    )
+    names = listing([row.long_name for row in drawn])
+    return Illustration(figure, caption, f"Maps of the slope, one above the other: {names} of realization {k}.")
+
+
+def _correlations(ground: Ground, slide: ReplayedSlide) -> str:
+    sentences = [
+        f" Here {BY_NAME[one].long_name} and {BY_NAME[other].long_name} are correlated by "
+        f"{np.corrcoef(slide.soil[one], slide.soil[other])[0, 1]:.2f}; the scene asks for {asked:g} over all "
+        "realizations."
+        for (one, other), asked in ground.scene.field.cross_correlations().items()
+    ]
+    return "".join(sentences)
+
+
+def _raised(slide: ReplayedSlide) -> str:
+    sentences = [
+        f" In {100 * share:.2g} % of the ground the {BY_NAME[name].long_name} that was drawn is below the residual "
+        "one, and is raised to it."
+        for name, share in slide.raised_shares.items()
+        if share > 0.0
+    ]
+    return "".join(sentences)

@@ -1,0 +1,84 @@
+"""The answer in ten seconds: does it slide, how far, and does it reach the places asked about."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from campaign.record import Status
+from campaign.report import estimates
+from campaign.report.places import reach_estimates
+from campaign.report.wording import bounds
+from campaign.results.results import Results
+from campaign.statistics.intervals import Interval
+from campaign.statistics.receptors import ReceptorEstimate
+from campaign.statistics.total import has_mesh_error
+from campaign.statistics.wording import chance, chance_of_slide, chances
+
+
+class Tile(NamedTuple):
+    """A number of the first screen: what it is, its value, its interval, and a remark ("" for none)."""
+
+    name: str
+    value: str
+    interval: str
+    remark: str
+
+
+def tiles(results: Results) -> list[Tile]:
+    """Return the numbers of the first screen, the probability of a slide first."""
+    if not results.outcomes.usable:
+        return []
+    return [_slide(results), *_runouts(results)]
+
+
+def reaches(results: Results) -> list[Tile]:
+    """Return for each receptor how probable it is that a slide gets there."""
+    return [_reach(each) for each in reach_estimates(results)]
+
+
+def what_intervals_hold(results: Results) -> str:
+    """Say what the intervals of the first screen hold."""
+    mesh = "sampling and mesh" if has_mesh_error(results.discretisation) else "sampling alone"
+    of_runouts = f"; those of the run-out hold {mesh}" if results.outcomes.slides else ""
+    return f"Intervals are at {100 * results.confidence:g} % confidence{of_runouts}. None holds the error of the model."
+
+
+def _slide(results: Results) -> Tile:
+    probability, given = estimates.slide_probability(results), results.outcomes
+    failed = int(np.count_nonzero(results.has_failed))
+    remark = f"{given.slides} of {given.usable} simulated slopes slid" + (f"; {failed} failed" if failed else "")
+    if given.slides in (0, given.usable):
+        return Tile("Probability of a slide", chance_of_slide(probability), "", remark)
+    return Tile("Probability of a slide", chance(probability.estimate), chances(probability), remark)
+
+
+def _runouts(results: Results) -> list[Tile]:
+    slides = results.outcomes.slides
+    if not slides:
+        return []
+    if slides == 1:
+        return [Tile("Run-out of the only slide", f"{results.slide_runouts[0]:.1f} m", "", "more slides tell how sure")]
+    names = {0.5: "Half of the slides stop within", estimates.FAR: f"{100 * estimates.FAR:g} % stop within"}
+    return [_runout(results, name, share) for share, name in names.items()]
+
+
+def _runout(results: Results, name: str, share: float) -> Tile:
+    total = estimates.total_quantile(results, share)
+    return Tile(name, f"{total.estimate:.1f} m", bounds(total, "m", ".1f"), _remark(results, total, share))
+
+
+def _remark(results: Results, total: Interval, share: float) -> str:
+    hindered, unsettled = results.outcomes.hindered, results.by_status()[Status.not_settled]
+    reasons = {f"a wall stopped {hindered}": hindered, f"{unsettled} still moved at the end": unsettled}
+    if told := " and ".join(reason for reason, count in reasons.items() if count):
+        return f"lower bound: {told}, of {results.outcomes.slides} slides"
+    needed = math.ceil(math.log((1 - results.confidence) / 2) / math.log(max(share, 1 - share)))
+    return f"both bounds need {needed} slides" if not total.is_known else ""
+
+
+def _reach(each: ReceptorEstimate) -> Tile:
+    remark = f"up to {chance(each.open_bounds[1])} if all that were cut short got there"
+    if each.open_bounds[1] <= each.interval.upper:
+        remark = ""
+    return Tile(each.receptor, chance(each.interval.estimate), chance_of_slide(each.interval), remark)

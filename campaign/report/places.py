@@ -1,0 +1,105 @@
+"""What the page says in tables: how the ground moves, and what comes to the places asked about."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from campaign.report.wording import bounds, number
+from campaign.results.results import Results
+from campaign.statistics.intervals import Sample, quantile_interval
+from campaign.statistics.receptors import (
+    EFFECTS,
+    FRONT_REACHES,
+    QUANTILES,
+    REACHED,
+    ReceptorEstimate,
+    receptor_estimates,
+)
+from campaign.statistics.wording import chance, chances
+
+MOVEMENT = {
+    "sliding_volume": "ground that slides, per metre of width",
+    "retrogression": "length lost behind the crest",
+    "settle_time": "time from release to rest",
+}
+"""Scalars of a slide, and what they are called."""
+
+ARRIVAL = "arrival after the release"
+
+
+class Distribution(NamedTuple):
+    """A line of a table: a quantity with its median and its 95 % quantile, each with an interval."""
+
+    name: str
+    median: str
+    median_interval: str
+    far: str
+    far_interval: str
+
+
+class Place(NamedTuple):
+    """A receptor: where it is, how probable it is that something comes, and what comes."""
+
+    name: str
+    where: str
+    chances: list[tuple[str, str, str]]
+    slides: int
+    effects: list[Distribution]
+
+
+def movement(results: Results) -> list[Distribution]:
+    """Return how the ground moves in the slides."""
+    return [
+        distribution(name, results.of_slides(quantity), results.data[quantity].units, results.confidence)
+        for quantity, name in MOVEMENT.items()
+        if np.isfinite(results.of_slides(quantity)).any()
+    ]
+
+
+def stillness(results: Results) -> list[Distribution]:
+    """Return how far the ground moved where nothing slid; nothing if all failed."""
+    if not results.outcomes.usable:
+        return []
+    largest = results.data["max_displacement"].values[~results.has_failed, -1]
+    return [distribution("largest movement of any ground", 1000.0 * largest, "mm", results.confidence)]
+
+
+def reach_estimates(results: Results) -> list[ReceptorEstimate]:
+    """Return for each receptor how probable it is that a slide's front gets there, if that is known."""
+    estimated = receptor_estimates(results.data, results.confidence)
+    return [each for each in estimated if each.quantity == FRONT_REACHES and each.interval.n]
+
+
+def places(results: Results) -> list[Place]:
+    """Return what the campaign says of each receptor."""
+    return [_place(results, receptor.name, receptor.x) for receptor in results.scene.receptor]
+
+
+def distribution(name: str, values: Sample, unit: str, confidence: float) -> Distribution:
+    """Return median and 95 % quantile of the finite ones of some values."""
+    known = values[np.isfinite(values)]
+    columns: list[str] = []
+    for share in QUANTILES:
+        interval = quantile_interval(known, share, confidence)
+        columns += [number(interval.estimate, unit), bounds(interval, unit)]
+    return Distribution(name, *columns)
+
+
+def _place(results: Results, name: str, stretch: tuple[float, float]) -> Place:
+    near, far = stretch
+    probabilities = [
+        (each.quantity.removeprefix("probability that "), chance(each.interval.estimate), chances(each.interval))
+        for each in receptor_estimates(results.data, results.confidence)
+        if each.receptor == name and each.quantity in REACHED.values() and each.interval.n
+    ]
+    reached = results.data.sel(receptor=name)["front_reaches"].values == 1.0
+    where = f"x = {near:g} m" if near == far else f"x = {near:g} to {far:g} m"
+    effects = list(_effects(results, name, reached)) if reached.any() else []
+    return Place(name, where, probabilities, int(np.count_nonzero(reached)), effects)
+
+
+def _effects(results: Results, receptor: str, reached: np.ndarray) -> Iterator[Distribution]:
+    data = results.data.sel(receptor=receptor)
+    for variable, name in ({"front_arrival": ARRIVAL} | EFFECTS).items():
+        yield distribution(name, data[variable].values[reached], data[variable].units, results.confidence)

@@ -1,0 +1,101 @@
+"""Probabilities of a longer run-out, for any distance, and numbers as the page writes them."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from small_campaign import small_scene
+
+from campaign.record import Status
+from campaign.report import distances, headline
+from campaign.report.wording import bounds, number, unbroken
+from campaign.results.results import Results
+from campaign.statistics.intervals import Interval
+from campaign.statistics.proportions import proportion_interval
+
+SCENE = small_scene()
+
+
+def results(runouts, statuses):
+    n = len(runouts)
+    data = {
+        "final_runout": ("realization", np.array(runouts, dtype=float)),
+        "final_runout_mass": ("realization", np.array(runouts, dtype=float)),
+        "status": ("realization", np.array([int(each) for each in statuses])),
+    }
+    return Results(xr.Dataset(data, {"realization": np.arange(n)}), SCENE)
+
+
+SOMETIMES = results([2.0, 0.3, 1.0, 0.3], [Status.slid, Status.no_slide] * 2)
+"""Two of four slide, 1 and 2 m far."""
+
+
+@pytest.mark.parametrize(("distance", "beyond"), [(0.0, 2), (0.99, 2), (1.0, 1), (1.9, 1), (2.0, 0), (99.0, 0)])
+def test_the_curve_counts_who_runs_farther(distance, beyond):
+    curve = distances.exceedance_curve(SOMETIMES)
+    assert curve.at(distance) == pytest.approx(proportion_interval(beyond, 4, 0.95))
+    given = distances.exceedance_curve(SOMETIMES, given_sliding=True)
+    assert given.at(distance) == pytest.approx(proportion_interval(beyond, 2, 0.95))
+
+
+def test_the_script_gets_the_same_curve_in_per_cent():
+    data = distances.data(SOMETIMES)
+    assert data["distance"] == [0.0, 1.0, 2.0]
+    assert data["all_estimate"] == [50.0, 25.0, 0.0]
+    assert data["sliding_estimate"] == [100.0, 50.0, 0.0]
+    assert all(len(column) == 3 for column in data.values())
+
+
+def test_the_table_has_round_distances_from_all_slides_to_none():
+    rng = np.random.default_rng(3)
+    rows = distances.table(results(rng.normal(10.0, 1.0, 40), [Status.slid] * 40))
+    assert 4 <= len(rows) <= 10
+    assert rows[0].beyond.startswith("100 %")
+    assert rows[-1].beyond.startswith("0 %")
+    assert all(len(row.distance) <= len("10.5 m") for row in rows)
+
+
+@pytest.mark.parametrize("runouts", [[5.0], [5.0, 5.0], [0.0, 0.0]])
+def test_few_or_equal_slides_give_a_table(runouts):
+    assert distances.table(results(runouts, [Status.slid] * len(runouts)))
+
+
+def test_nothing_slid_means_no_table():
+    assert distances.table(results([0.0], [Status.no_slide])) == []
+
+
+def test_the_first_numbers_are_of_the_slides():
+    """Of 1 to 100 m the median is 50.5 m; 72 slides or more bound the 95 % quantile from above."""
+    probability, median, far = headline.tiles(results(np.arange(1.0, 101.0), [Status.slid] * 100))
+    assert (probability.value, probability.remark) == ("at least 96.4 %", "100 of 100 simulated slopes slid")
+    assert (median.value, median.interval, median.remark) == ("50.5 m", "40.0 to 61.0 m", "")
+    assert far.value in ("95.0 m", "95.1 m")
+    assert "to" in far.interval
+
+
+def test_few_slides_say_how_many_it_takes():
+    _, median, far = headline.tiles(results(np.arange(1.0, 11.0), [Status.slid] * 10))
+    assert "to" in median.interval
+    assert far.interval.startswith("at least")
+    assert far.remark == "both bounds need 72 slides"
+
+
+def test_a_single_slide_is_told_without_an_interval():
+    _, only = headline.tiles(results([3.0, 0.0], [Status.slid, Status.no_slide]))
+    assert (only.name, only.value, only.interval) == ("Run-out of the only slide", "3.0 m", "")
+
+
+def test_walls_and_failures_are_told_first():
+    statuses = [Status.slid] * 8 + [Status.reached_wall, Status.not_settled, Status.crashed]
+    probability, median, _ = headline.tiles(results([*np.arange(1.0, 11.0), np.nan], statuses))
+    assert probability.remark == "10 of 10 simulated slopes slid; 1 failed"
+    assert median.remark == "lower bound: a wall stopped 1 and 1 still moved at the end, of 10 slides"
+
+
+def test_units_are_those_of_a_reader():
+    assert number(4330.0, "Pa") == "4.33 kPa"
+    assert number(421.2, "m3/m") == "421 m³/m"
+    assert number(20.0, "m") == "20.0 m"
+    assert number(np.nan, "m") == "–"
+    assert bounds(Interval(1.0, 0.5, np.nan, 9), "m") == "at least 0.500 m"
+    assert bounds(Interval(1.0, np.nan, np.nan, 1), "m") == "too few slides for an interval"
+    assert unbroken("5 m and 3 men") == "5\u00a0m and 3 men"

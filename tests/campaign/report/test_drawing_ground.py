@@ -1,0 +1,99 @@
+"""Domains follow the ground as it deforms, and areas on the lattice are joined without a change of the picture."""
+
+import numpy as np
+import pytest
+
+from campaign.report.figures.domains import LONGEST, SHORTEST, corners, deformation_gradients, undeformed
+from campaign.report.figures.labels import Label, highest, place_labels
+from campaign.report.figures.particles import LEVELS, Scale, rectangles
+
+SIDE = 0.5
+X, Y = (axis.ravel() for axis in np.meshgrid(SIDE * (np.arange(8) + 0.5), SIDE * (np.arange(6) + 0.5)))
+
+
+def mapped(gradient):
+    return tuple(np.asarray(gradient) @ np.stack([X, Y]))
+
+
+def gradients(now, ratio=1.0):
+    return deformation_gradients((X, Y), now, np.full(X.size, ratio), SIDE)
+
+
+@pytest.mark.parametrize(
+    "gradient",
+    [
+        [[1.0, 0.0], [0.0, 1.0]],
+        [[np.cos(1.0), -np.sin(1.0)], [np.sin(1.0), np.cos(1.0)]],
+        [[1.0, 0.6], [0.0, 1.0]],
+        [[1.3, 0.2], [-0.1, 0.9]],
+    ],
+)
+def test_uniform_deformation_is_found_exactly(gradient):
+    """A linear map of the lattice is its own deformation gradient, at the edge as well; J is its determinant."""
+    found = gradients(mapped(gradient), float(np.linalg.det(gradient)))
+    np.testing.assert_allclose(found, np.broadcast_to(gradient, found.shape), atol=1e-12)
+
+
+def test_domains_have_the_area_that_the_solver_gives_and_no_endless_stretch():
+    rng = np.random.default_rng(1)
+    found = gradients((rng.uniform(0, 4, X.size), rng.uniform(0, 3, X.size)), 1.2)
+    np.testing.assert_allclose(np.abs(np.linalg.det(found)), 1.2)
+    stretch = np.linalg.svd(found, compute_uv=False)
+    assert np.all(stretch[:, 0] / stretch[:, 1] < LONGEST / SHORTEST + 1e-9)
+
+
+def test_a_torn_off_neighbour_does_not_stretch_a_domain():
+    """The right half is carried 10 m away: beside the gap domains stay as they were, to 2 % of (1.8 / 20)^6."""
+    found = gradients((X + np.where(X > 2.0, 10.0, 0.0), Y))
+    np.testing.assert_allclose(found, undeformed(X.size), atol=1e-2)
+
+
+def test_a_lonely_particle_keeps_its_shape():
+    found = deformation_gradients((X[:1], Y[:1]), (X[:1] + 3.0, Y[:1]), np.ones(1), SIDE)
+    np.testing.assert_array_equal(found, undeformed(1))
+
+
+def area(polygons):
+    x, y = polygons[..., 0], polygons[..., 1]
+    return 0.5 * np.sum(x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1), axis=1)
+
+
+def test_neighbours_of_one_colour_are_one_rectangle():
+    """Six rows of eight, with one odd particle: that row falls into three, the others are whole."""
+    levels = np.zeros(X.size, dtype=int)
+    levels[10] = 3
+    joined, of = rectangles(X, Y, levels, SIDE)
+    assert sorted(of.tolist()) == [0] * 7 + [3]
+    single = corners(X, Y, undeformed(X.size), SIDE)
+    assert joined[..., 0].min() == pytest.approx(single[..., 0].min())
+    assert joined[..., 1].max() == pytest.approx(single[..., 1].max())
+    assert np.all(area(joined) > 0)
+
+
+def test_there_are_no_rectangles_of_nothing():
+    nothing = np.empty(0)
+    assert rectangles(nothing, nothing, nothing.astype(int), SIDE)[0].shape == (0, 4, 2)
+
+
+def test_colours_end_where_the_scale_ends():
+    assert Scale("viridis", 0.0, 1.0).levels(np.array([-1.0, 0.0, 0.5, 1.0, 9.0])).tolist() == [
+        0,
+        0,
+        LEVELS // 2,
+        LEVELS - 1,
+        LEVELS - 1,
+    ]
+
+
+def test_labels_do_not_run_into_each_other_and_end_below_the_sky():
+    """However near their places are: each pair is apart sideways or by a line, and all are above the ground."""
+    rng = np.random.default_rng(2)
+    labels = [Label(x, 0.0, "a name of some length", "k", "") for x in rng.uniform(0, 50, 12)]
+    placed = place_labels(labels, lambda x: np.full_like(x, 4.0), 0.1, 50.0)
+    assert len(placed) == 12
+    for k, one in enumerate(placed):
+        assert 4.0 < one.bottom < highest(placed, 0.1)
+        assert one.right <= 50.0 + 1e-9
+        for other in placed[:k]:
+            beside = one.right < other.left or other.right < one.left
+            assert beside or abs(one.bottom - other.bottom) >= 1.9 - 1e-9
