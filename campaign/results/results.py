@@ -168,7 +168,7 @@ def read_results(directory: Path) -> Results:
     if kept < FORMAT:
         raise RefusalError(
             f"{directory / RESULTS} is of format {kept}, before statistics of all realizations were told from those of "
-            f"the slides (format {FORMAT}). campaign run {directory} makes it again from the records."
+            f"the slides (format {FORMAT}). campaign run {directory} --allow-drift makes it again from the records."
         )
     overrides = filter(None, str(data.attrs["scene_overrides"]).split("\n"))
     return Results(data, kept_scene(str(data.attrs["scene"]), overrides))

@@ -324,7 +324,7 @@ def test_the_release_protocol_is_a_line_of_the_budget(campaign):
 def test_results_of_an_older_format_are_refused_with_the_way_to_new_ones(campaign, tmp_path):
     with xr.open_dataset(campaign / "results.nc") as data:
         data.assign_attrs(format=1).to_netcdf(tmp_path / "results.nc")
-    with pytest.raises(RefusalError, match=r"is of format 1, .* campaign run .* makes it again from the records"):
+    with pytest.raises(RefusalError, match=r"is of format 1, .* campaign run .* --allow-drift makes it again"):
         read_results(tmp_path)
 
 
