@@ -78,7 +78,7 @@ def _remark(results: Results, total: Interval, share: float) -> str:
 
 
 def _reach(each: ReceptorEstimate) -> Tile:
-    remark = f"up to {chance(each.open_bounds[1])} if all that were cut short got there"
+    remark = f"up to {chance(each.open_bounds[1])} if those cut short got there"
     if each.open_bounds[1] <= each.interval.upper:
         remark = ""
     return Tile(each.receptor, chance(each.interval.estimate), chance_of_slide(each.interval), remark)

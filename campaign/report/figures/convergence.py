@@ -34,7 +34,7 @@ def convergence(results: Results) -> Illustration:
     rule, n = results.scene.campaign, results.slide_runouts.size
     need_slides(n, FEWEST)
     need(np.ptp(results.slide_runouts) > 0, "All final run-outs are equal, so nothing converges.")
-    figure, panels = new_figure(4.6, 2, width=COLUMN, sharex=True)
+    figure, panels = new_figure(3.8, 2, width=COLUMN, sharex=True)
     estimate: list[tuple[str, Callable[[Sample, float], Interval], float]] = [
         ("mean", mean_interval, rule.mean_tolerance),
         ("standard deviation", std_interval, rule.variance_tolerance),

@@ -20,7 +20,7 @@ def curves(results: Results) -> Illustration:
     need_slides(n, 1)
     runouts = results.data["runout" if results.front == "tip" else "runout_mass"].values[results.has_slid]
     time = results.data["time"].values
-    figure, (axes,) = new_figure(3.4, width=COLUMN)
+    figure, (axes,) = new_figure(2.9, width=COLUMN)
     draw_histories(axes, time, runouts)
     deterministic = results.data["deterministic_runout"].values
     if results.front == "tip" and np.isfinite(deterministic).any():

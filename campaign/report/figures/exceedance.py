@@ -24,7 +24,7 @@ def exceedance(results: Results) -> Illustration:
     need_slides(n, 2)
     curve = exceedance_curve(results)
     shortest, longest = curve.distance[1], curve.distance[-1]
-    figure, (axes,) = new_figure(3.4, width=COLUMN)
+    figure, (axes,) = new_figure(2.9, width=COLUMN)
     draw_curve(axes, curve, f"{100 * results.confidence:g} % interval")
     if np.isfinite(results.deterministic):
         axes.axvline(results.deterministic, color=BLACK, linestyle="--", label="mean strengths")

@@ -16,7 +16,7 @@ def histogram(results: Results) -> Illustration:
     need_slides(n, 2)
     mean, std = float(np.mean(runouts)), float(np.std(runouts, ddof=1))
     need(std > 0, "All final run-outs are equal, so they have no distribution to draw.")
-    figure, (axes,) = new_figure(3.4, width=COLUMN)
+    figure, (axes,) = new_figure(2.9, width=COLUMN)
     counts, edges = np.histogram(runouts, bins="auto")
     bars = axes.bar(edges[:-1], counts, np.diff(edges), align="edge", color=GREY, alpha=0.6, edgecolor="white")
     for count, low, high, bar in zip(counts, edges[:-1], edges[1:], bars, strict=True):

@@ -57,7 +57,7 @@ def _properties(axes: Axes, found: Ranking, named: list[str]) -> str:
     _bars(axes, named, found.correlation, 0.35, BLUE, -0.19, "rank correlation")
     _bars(axes, named, found.regression, 0.35, ORANGE, 0.19, "regression on all together")
     axes.set(xlabel="correlation or coefficient (-)", xlim=(-1, 1))
-    axes.legend(loc="best")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.3, -0.35), ncols=2)
     return (
         "Rank correlation with the mean of each random property over the ground that moves, and, where all of them are "
         "regressed on together, standard deviations per standard deviation; from "

@@ -28,6 +28,10 @@ WIDE: Final = 10.0
 """Width in inches on a desk; on a telephone it is that of a column."""
 
 
+STOPS: Final = {0.5: "half", estimates.FAR: f"{100 * estimates.FAR:g} %"}
+"""Shares of the slides whose reach is marked."""
+
+
 class Panels(NamedTuple):
     """The figure with the probability of being reached, if anything slides, above the section."""
 
@@ -39,7 +43,7 @@ class Panels(NamedTuple):
 def overview(results: Results, section: Section, width: float) -> Illustration:
     """Draw the section with all that the first screen says of it, `width` inches wide."""
     scale = (width - LEFT - RIGHT) / section.right
-    deposit, marks = deposit_of(results, section.surface.width), _marks(results, section)
+    deposit, marks = deposit_of(results, section.surface.width), _marks(results, section, width >= WIDE)
     placed = place_labels(marks, deposit.clear, scale, section.right)
     section = replace(section, top=max(section.top, highest(placed, scale)))
     panels = _panels(section, width, results.outcomes.slides > 0)
@@ -79,8 +83,9 @@ def _reach(axes: Axes, results: Results, section: Section) -> None:
     axes.text(0.01 * section.right, 0.5, "how probable it is that\na slide gets as far", color=BLUE, va="center")
 
 
-def _marks(results: Results, section: Section) -> list[Label]:
-    return [*_ends(section), *_stops(results, section), *_receptors(results, section)]
+def _marks(results: Results, section: Section, has_room: bool) -> list[Label]:
+    stops = _stops(results, section, " stop before" if has_room else " stop")
+    return [*_ends(section), *stops, *_receptors(results, section)]
 
 
 def _ends(section: Section) -> list[Label]:
@@ -90,16 +95,16 @@ def _ends(section: Section) -> list[Label]:
     return [Label(x, y, name, BLACK, f"{name} at {x:.4g} m") for name, (x, y) in ends.items()]
 
 
-def _stops(results: Results, section: Section) -> list[Label]:
-    """Return labels where half and 95 % of the slides have stopped."""
+def _stops(results: Results, section: Section, words: str) -> list[Label]:
+    """Return labels where half and 95 % of the slides have stopped, with short or long words."""
     toe_x, toe_y = section.surface.toe
     if not results.outcomes.slides:
         return []
     marks = []
-    for share, words in ((0.5, "half stop before"), (estimates.FAR, "95 % stop before")):
+    for share, name in STOPS.items():
         reach = estimates.total_quantile(results, share)
-        told = f"{words} {reach.estimate:.2f} m from the toe, {bounds(reach, 'm', '.2f')}"
-        marks.append(Label(toe_x + reach.estimate, toe_y, words, BLUE, told))
+        told = f"{name} stop before {reach.estimate:.2f} m from the toe, {bounds(reach, 'm', '.2f')}"
+        marks.append(Label(toe_x + reach.estimate, toe_y, name + words, BLUE, told))
     return marks if results.outcomes.slides > 1 else []
 
 
@@ -108,7 +113,7 @@ def _total_intervals(axes: Axes, results: Results, section: Section) -> None:
     if results.outcomes.slides < 2:
         return
     toe_x, toe_y = section.surface.toe
-    for share, depth in ((0.5, 0.04), (estimates.FAR, 0.075)):
+    for share, depth in zip(STOPS, (0.04, 0.075), strict=True):
         reach = estimates.total_quantile(results, share)
         low, high = (reach.estimate if np.isnan(bound) else bound for bound in (reach.lower, reach.upper))
         y = toe_y - depth * section.top

@@ -48,8 +48,8 @@ def sensitivity(results: Results, section: Section) -> Illustration:
 def _panel(
     axes: Axes, section: Section, boxes: tuple[Array, Array], found: SensitivityMap, number: int, limit: float
 ) -> QuadMesh:
-    edges = [_edges(middles) for middles in boxes]
-    mesh = axes.pcolormesh(*edges, found.change[number], cmap=COLOURS, vmin=-limit, vmax=limit)
+    x, y = (_edges(middles) for middles in boxes)
+    mesh = axes.pcolormesh(np.minimum(x, section.right), y, found.change[number], cmap=COLOURS, vmin=-limit, vmax=limit)
     mesh.set_clip_path(outline(axes, section.surface, facecolor="none", edgecolor="none"))
     row, column = np.nonzero(found.is_clear[number])
     axes.plot(boxes[0][column], boxes[1][row], "o", color=BLACK, markersize=2.5)
