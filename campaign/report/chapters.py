@@ -24,7 +24,7 @@ MEAN = "The slide with mean strengths"
 
 
 class Chapter(NamedTuple):
-    """A chapter: the template of its text (`_NAME.html.jinja`, with an underscore for a file), title and figures."""
+    """A chapter: the name of its template (`NAME.html.jinja`), its title and its figures."""
 
     name: str
     title: str

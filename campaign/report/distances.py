@@ -81,11 +81,15 @@ def data(results: Results) -> dict[str, list[float]]:
     return {"distance": np.round(curve.distance, 3).tolist()} | columns
 
 
+def round_step(least: float) -> float:
+    """Return the least of 1, 2 and 5 times a power of ten that is not below a length."""
+    power = 10.0 ** np.floor(np.log10(least))
+    return float(power * next(each for each in (1, 2, 5, 10) if each * power >= least * (1 - 1e-9)))
+
+
 def _round(curve: Curve) -> Array:
     """Return round distances (m) from before the shortest run-out to beyond the longest."""
     low, high = curve.distance[min(1, curve.distance.size - 1)], curve.distance[-1]
-    raw = max(high - low, 0.1 * high, 1e-3) / (ROWS - 2)
-    power = 10.0 ** np.floor(np.log10(raw))
-    step = power * next(each for each in (1, 2, 5, 10) if each * power >= raw * (1 - 1e-9))
+    step = round_step(max(high - low, 0.1 * high, 1e-3) / (ROWS - 2))
     first, last = np.floor(low / step), np.ceil(high / step)
     return np.asarray(np.round(step * np.arange(first, last + 1), 9))

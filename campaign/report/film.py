@@ -6,30 +6,47 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from campaign.report.figures.domains import covering, deformation_gradients
+from campaign.record import SLID
+from campaign.report.distances import round_step
+from campaign.report.figures.domains import covering
 from campaign.report.figures.particles import rectangles
 from campaign.report.figures.section import Section
+from campaign.report.moving import LEVELS, Frame, colour_limits, frame_of, moving_areas
 from campaign.report.replays import Replays
 from campaign.report.snapshots import ReplayedSlide, Snapshot
 from campaign.simulation.ground import Ground
 from campaign.simulation.solver_model import Array, column_edges
 from solver.observables import deposit_surface
 
-UNIT: Final = 0.02
-"""Metres of the drawing's unit; places are whole numbers of it."""
+UNITS: Final = 4000
+"""Of the drawing across its width; places are whole numbers of it."""
 
 SHAPE: Final = 36.0
 """Of the deformation gradient, so that it fits a byte: its elements are below 3.5."""
 
-MOST = 2000
-"""Moving areas of a film; more are joined to larger ones, or the page becomes large."""
 
-DISTANCES: Final = (0.0, 1.0, 3.0, 6.0, 10.0)
-"""Displacements in m from which on ground has the next colour, above that at which it begins to move."""
+class Screen(NamedTuple):
+    """What films have in common: a drawing `right` units wide and `top` high, with the ground and its scale.
 
+    Attributes
+    ----------
+    unit : float
+        In m.
+    right, top : int
+    before : str
+        Corners of the ground before the slide, for an SVG polyline.
+    ticks : list of (int, str)
+        Places and what is written at them.
+    colours : list of str
+        What the colours of moving ground stand for.
+    """
 
-LEVELS: Final = len(DISTANCES) + 1
-"""Colours of moving ground; the first is that of ground that does not move yet."""
+    unit: float
+    right: int
+    top: int
+    before: str
+    ticks: list[tuple[int, str]]
+    colours: list[str]
 
 
 class Film(NamedTuple):
@@ -58,22 +75,17 @@ class Film(NamedTuple):
     data: dict[str, Any]
 
 
-class _Moving(NamedTuple):
-    """The areas that a film shows.
-
-    Attributes
-    ----------
-    which : ndarray (m,)
-        Numbers of the particles that stand for them.
-    side : float
-        Of an area before the slide, in m.
-    covers : bool ndarray (n,)
-        The particles that lie in one of them.
-    """
-
-    which: NDArray[np.intp]
-    side: float
-    covers: NDArray[np.bool_]
+def screen_of(section: Section) -> Screen:
+    """Return the screen on which a section is shown."""
+    unit = section.right / UNITS
+    step = round_step(section.right / 7)
+    ticks = np.arange(0.0, section.right, step)
+    labels = [f"{x:g}" for x in np.round(ticks, 9)]
+    before = " ".join(f"{x / unit:.0f},{y / unit:.0f}" for x, y in section.corners)
+    limits = [f"{limit:.2g} m" for limit in colour_limits(section)[1:]]
+    colours = [f"up to {limits[0]}", *limits[1:], "farther"]
+    places = [round(x / unit) for x in ticks]
+    return Screen(unit, UNITS, round(section.top / unit), before, list(zip(places, labels, strict=True)), colours)
 
 
 def films(replayed: Replays, section: Section) -> list[Film]:
@@ -82,50 +94,33 @@ def films(replayed: Replays, section: Section) -> list[Film]:
     if "median" in replayed.ranked:
         median = replayed.ranked["median"]
         shown[f"A typical slide: realization {median.realization}, of median run-out"] = median
-    moving = {title: slide for title, slide in shown.items() if slide.end.runout > 0}
+    moving = {title: slide for title, slide in shown.items() if slide.record.status in SLID}
     return [_film(title, slide, replayed, section) for title, slide in moving.items()]
 
 
 def _film(title: str, slide: ReplayedSlide, replayed: Replays, section: Section) -> Film:
+    unit = section.right / UNITS
     ground, shots = replayed.ground, [slide.at(time) for time in replayed.times]
     shots[-1] = slide.end
-    moving = _moving(ground, shots, section)
+    moving = moving_areas(ground, shots, section)
     never = ~moving.covers & (ground.lattice.x < section.right)
-    frames = [_frame(ground, moving, shot) for shot in shots]
+    frames = [frame_of(ground, section, moving, shot) for shot in shots]
     surfaces = np.stack([_surface(ground, shot) for shot in shots])
     x = ground.coordinates["x"]
     still = rectangles(ground.lattice.x[never], ground.lattice.y[never], np.zeros(never.sum(), np.intp), section.side)
     data = {
-        "places": _packed(np.stack([np.stack([x, y], -1) for x, y, _, _ in frames]) / UNIT, "<i2"),
+        "places": _packed(np.stack([np.stack([x, y], -1) for x, y, _, _ in frames]) / unit, "<i2"),
         "shapes": _packed(np.stack([shape.reshape(-1, 4) for _, _, shape, _ in frames]) * SHAPE, "i1"),
         "levels": _packed(np.stack([level for _, _, _, level in frames]), "u1"),
-        "surfaces": _packed(surfaces / UNIT, "<i2"),
-        "x": np.round(x / UNIT).astype(int).tolist(),
-        "half": 0.53 * moving.side / UNIT,
+        "surfaces": _packed(surfaces / unit, "<i2"),
+        "x": np.round(x / unit).astype(int).tolist(),
+        "half": 0.53 * moving.side / unit,
         "captions": [_caption(shot) for shot in shots],
     }
-    line = "L".join(f"{a:.0f} {b:.0f}" for a, b in zip(x / UNIT, surfaces[-1] / UNIT, strict=True))
-    return Film(title, _path(still[0]), _last(frames[-1], moving.side), f"M{line}", _caption(slide.end), data)
-
-
-def _moving(ground: Ground, shots: list[Snapshot], section: Section) -> _Moving:
-    """Choose squares of one or more particles; each moves if the particle in its middle does."""
-    lattice, farthest = ground.lattice, np.max([shot.displacement for shot in shots], axis=0)
-    moves = (farthest > ground.scene.slide.displaced) & (lattice.x < section.right)
-    step = max(1, int(np.ceil(np.sqrt(np.count_nonzero(moves) / MOST))))
-    i, j = (np.floor(at / section.side).astype(int) for at in (lattice.x, lattice.y))
-    block = i // step * (j.max() + 1) + j // step
-    which = np.flatnonzero(moves & (i % step == step // 2) & (j % step == step // 2))
-    return _Moving(which, step * section.side, np.isin(block, block[which]))
-
-
-def _frame(ground: Ground, moving: _Moving, shot: Snapshot) -> tuple[Array, Array, Array, NDArray[np.intp]]:
-    """Return places x, y (m), deformation gradients and colours of the moving areas."""
-    which, lattice = moving.which, ground.lattice
-    x, y, far = shot.x[which], shot.y[which], shot.displacement[which] - ground.scene.slide.displaced
-    ratio = shot.volume[which] / lattice.volume[which]
-    shape = deformation_gradients((lattice.x[which], lattice.y[which]), (x, y), ratio, moving.side)
-    return x, y, shape, np.searchsorted(DISTANCES, far)
+    line = "L".join(f"{a:.0f} {b:.0f}" for a, b in zip(x / unit, surfaces[-1] / unit, strict=True))
+    return Film(
+        title, _path(still[0] / unit), _last(frames[-1], moving.side, unit), f"M{line}", _caption(slide.end), data
+    )
 
 
 def _surface(ground: Ground, shot: Snapshot) -> Array:
@@ -133,13 +128,14 @@ def _surface(ground: Ground, shot: Snapshot) -> Array:
     return deposit_surface(now, 0.5 * ground.model.particle_spacing, column_edges(ground.model))
 
 
-def _last(frame: tuple[Array, Array, Array, NDArray[np.intp]], side: float) -> list[str]:
+def _last(frame: Frame, side: float, unit: float) -> list[str]:
     x, y, shape, levels = frame
-    return [_path(covering(x[where], y[where], shape[where], side)) for where in np.eye(LEVELS, dtype=bool)[levels].T]
+    of_levels = np.eye(LEVELS, dtype=bool)[levels].T
+    return [_path(covering(x[where], y[where], shape[where], side) / unit) for where in of_levels]
 
 
 def _path(areas: Array) -> str:
-    whole = np.round(areas / UNIT).astype(int).tolist()
+    whole = np.round(areas).astype(int).tolist()
     return "".join("M" + "L".join(f"{x} {y}" for x, y in area) + "z" for area in whole)
 
 
@@ -150,4 +146,4 @@ def _packed(values: Array | NDArray[np.intp], dtype: str) -> str:
 
 
 def _caption(shot: Snapshot) -> str:
-    return f"{shot.time:.1f} s after release, run-out {shot.runout:.1f} m"
+    return f"{shot.time:.1f} s after release, run-out {shot.runout:.3g} m"

@@ -58,14 +58,15 @@ def _runouts(results: Results) -> list[Tile]:
     if not slides:
         return []
     if slides == 1:
-        return [Tile("Run-out of the only slide", f"{results.slide_runouts[0]:.1f} m", "", "more slides tell how sure")]
+        return [Tile("Run-out of the only slide", f"{results.slide_runouts[0]:.2f} m", "", "more slides tell how sure")]
     names = {0.5: "Half of the slides stop within", estimates.FAR: f"{100 * estimates.FAR:g} % stop within"}
     return [_runout(results, name, share) for share, name in names.items()]
 
 
 def _runout(results: Results, name: str, share: float) -> Tile:
     total = estimates.total_quantile(results, share)
-    return Tile(name, f"{total.estimate:.1f} m", bounds(total, "m", ".1f"), _remark(results, total, share))
+    form = ".1f" if total.estimate >= 1 else ".2f"
+    return Tile(name, f"{total.estimate:{form}} m", bounds(total, "m", form), _remark(results, total, share))
 
 
 def _remark(results: Results, total: Interval, share: float) -> str:

@@ -19,7 +19,8 @@ from campaign.report.figures.domains import GAP
 from campaign.report.figures.overview import WIDE, overview
 from campaign.report.figures.section import Section, section_of
 from campaign.report.figures.style import COLUMN, in_style
-from campaign.report.film import LEVELS, SHAPE, Film, films
+from campaign.report.film import SHAPE, Film, films, screen_of
+from campaign.report.moving import LEVELS
 from campaign.report.provenance import doubts_about, provenance
 from campaign.report.replays import Replays, replays
 from campaign.report.wording import unbroken
@@ -74,7 +75,7 @@ def render(results: Results, replayed: Replays | None, remarks: list[str], figur
         film_shape=SHAPE,
         film_levels=LEVELS,
         film_gap=GAP,
-        section=section,
+        screen=screen_of(section),
         appendix=draw_all(appendix(results), figures),
     )
 

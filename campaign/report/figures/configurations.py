@@ -1,6 +1,6 @@
 """The deterministic slide on its way."""
 
-from campaign.record import FAILED
+from campaign.record import FAILED, Status
 from campaign.report.figures.particles import Scale
 from campaign.report.figures.section import Section
 from campaign.report.figures.stack import OUTLINE, colour_bar, draw_slide, stack, upper_limit
@@ -14,7 +14,7 @@ TIMES = (3.0, 5.0)
 
 def configurations(section: Section, ground: Ground, slide: ReplayedSlide) -> Illustration:
     """Draw the deterministic slide at some times, coloured by displacement (figure 3 of the paper)."""
-    need(slide.end.runout > 0, "With mean strengths everywhere it does not slide.")
+    need(slide.record.status is not Status.no_slide, "With mean strengths everywhere it does not slide.")
     shots = [*(slide.at(time) for time in TIMES if time < slide.end.time), slide.end]
     figure, panels = stack(section, len(shots))
     scale = Scale("viridis", 0.0, upper_limit(slide.end.displacement))

@@ -6,7 +6,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import PercentFormatter
 
 from campaign.report.distances import Curve, exceedance_curve
-from campaign.report.figures.style import BLACK, BLUE, COLUMN, Illustration, need_slides, new_figure
+from campaign.report.figures.style import BLACK, BLUE, COLUMN, Illustration, need, need_slides, new_figure
 from campaign.report.figures.svg import on_hover
 from campaign.results.results import Results
 from campaign.statistics.wording import chance
@@ -23,6 +23,7 @@ def exceedance(results: Results) -> Illustration:
     n = results.slide_runouts.size
     need_slides(n, 2)
     curve = exceedance_curve(results)
+    need(curve.distance[-1] > 0, "No slide has come beyond the toe.")
     shortest, longest = curve.distance[1], curve.distance[-1]
     figure, (axes,) = new_figure(2.9, width=COLUMN)
     draw_curve(axes, curve, f"{100 * results.confidence:g} % interval")

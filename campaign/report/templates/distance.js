@@ -12,14 +12,14 @@
   }
   function tell() {
     const distance = parseFloat(input.value);
-    document.getElementById("place").textContent = isFinite(distance) ? (toe + distance).toFixed(1) : "?";
+    document.getElementById("place").textContent = isFinite(distance) ? String(+(toe + distance).toPrecision(4)) : "?";
     if (!(distance >= 0)) { told.textContent = "Enter a distance of 0 m or more."; return; }
     let k = 0;
     while (k + 1 < data.distance.length && data.distance[k + 1] <= distance) k += 1;
     told.textContent = words("all", k) + (sometimes ? "; if it slides " + words("sliding", k) : "");
   }
   form.hidden = false;
-  input.value = data.distance[Math.floor(data.distance.length / 2)].toFixed(1);
+  input.value = String(+data.distance[Math.floor(data.distance.length / 2)].toPrecision(3));
   input.addEventListener("input", tell);
   form.addEventListener("submit", (event) => event.preventDefault());
   tell();

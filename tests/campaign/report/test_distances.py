@@ -81,7 +81,7 @@ def test_few_slides_say_how_many_it_takes():
 
 def test_a_single_slide_is_told_without_an_interval():
     _, only = headline.tiles(results([3.0, 0.0], [Status.slid, Status.no_slide]))
-    assert (only.name, only.value, only.interval) == ("Run-out of the only slide", "3.0 m", "")
+    assert (only.name, only.value, only.interval) == ("Run-out of the only slide", "3.00 m", "")
 
 
 def test_walls_and_failures_are_told_first():
