@@ -3,6 +3,7 @@
 from functools import partial
 from typing import NamedTuple
 
+from campaign.report.distances import Curve
 from campaign.report.drawing import Plan
 from campaign.report.figures.configurations import configurations
 from campaign.report.figures.convergence import convergence
@@ -31,10 +32,10 @@ class Chapter(NamedTuple):
     plans: list[Plan]
 
 
-def chapters(results: Results, section: Section, replayed: Replays | None) -> list[Chapter]:
+def chapters(results: Results, curve: Curve, section: Section, replayed: Replays | None) -> list[Chapter]:
     """Return the chapters of the page; one with neither text nor figures is left out."""
     slides = results.outcomes.slides > 0
-    distances = [_distances(results)] if slides else []
+    distances = [_distances(results, curve)] if slides else []
     inputs = _inputs(results, section)
     single = _single(section, replayed)
     return [
@@ -60,13 +61,13 @@ def _movement(results: Results, section: Section) -> list[Plan]:
     return [influenced] * has_moved + [over_time] * (results.outcomes.slides > 0)
 
 
-def _distances(results: Results) -> Chapter:
+def _distances(results: Results, curve: Curve) -> Chapter:
     at_places = [
         Plan(f"receptor-{number}", f"Over time: {receptor.name}", partial(histories, results, receptor.name))
         for number, receptor in enumerate(results.scene.receptor, start=1)
     ]
     plans = [
-        Plan("exceedance", "Probability of a longer run-out", lambda: exceedance(results)),
+        Plan("exceedance", "Probability of a longer run-out", lambda: exceedance(results, curve)),
         Plan("histogram", "Distribution of the run-out", lambda: histogram(results)),
         *at_places,
     ]

@@ -44,12 +44,24 @@ class Curve(NamedTuple):
         return f"{chance(share.estimate)} ({chances(share)})"
 
 
+class Curves(NamedTuple):
+    """The curve of all realizations, and that of the slides alone; thousands of intervals, so it is made once."""
+
+    all: Curve
+    given_sliding: Curve
+
+
 class Row(NamedTuple):
     """A line of the table of distances; the last two are the probabilities in words."""
 
     distance: str
     beyond: str
     given_sliding: str
+
+
+def curves_of(results: Results) -> Curves:
+    """Return both curves of a campaign."""
+    return Curves(exceedance_curve(results), exceedance_curve(results, given_sliding=True))
 
 
 def exceedance_curve(results: Results, given_sliding: bool = False) -> Curve:
@@ -61,24 +73,23 @@ def exceedance_curve(results: Results, given_sliding: bool = False) -> Curve:
     return Curve(distances, estimate, lower, upper, shares[0].n)
 
 
-def table(results: Results) -> list[Row]:
-    """Return the probabilities of a run-out beyond round distances."""
-    if not results.outcomes.slides:
+def table(curves: Curves) -> list[Row]:
+    """Return the probabilities of a run-out beyond round distances; without a slide there is none."""
+    curve, given = curves
+    if given.n == 0:
         return []
-    curve, given = exceedance_curve(results), exceedance_curve(results, given_sliding=True)
     return [Row(f"{distance:g} m", curve.words(distance), given.words(distance)) for distance in _round(curve)]
 
 
-def data(results: Results) -> dict[str, list[float]]:
+def data(curves: Curves) -> dict[str, list[float]]:
     """Return both curves for the page's script; probabilities in per cent."""
-    curve, given = exceedance_curve(results), exceedance_curve(results, given_sliding=True)
-    shares = {"all": curve, "sliding": given}
+    shares = {"all": curves.all, "sliding": curves.given_sliding}
     columns = {
         f"{name}_{part}": np.round(100.0 * getattr(each, part), 2).tolist()
         for name, each in shares.items()
         for part in ("estimate", "lower", "upper")
     }
-    return {"distance": np.round(curve.distance, 3).tolist()} | columns
+    return {"distance": np.round(curves.all.distance, 3).tolist()} | columns
 
 
 def round_step(least: float) -> float:

@@ -13,6 +13,7 @@ from campaign.report import distances, headline, inputs, places
 from campaign.report.answer import answer, outcomes, reasons_for_doubt
 from campaign.report.chapters import appendix, chapters
 from campaign.report.choices import modelling_choices
+from campaign.report.distances import Curve, Curves
 from campaign.report.drawing import Plan, draw_all
 from campaign.report.error_budget import error_budget
 from campaign.report.figures.domains import GAP
@@ -65,10 +66,13 @@ def write_report(directory: Path) -> Path:
 
 def render(results: Results, replayed: Replays | None, remarks: list[str], figures: Path) -> str:
     """Return the page as HTML; its figures are kept in a directory, too."""
+    curves = distances.curves_of(results)
     section = section_of(results.scene, np.append(results.runouts, results.deterministic))
-    ordered = [(chapter, draw_all(chapter.plans, figures)) for chapter in chapters(results, section, replayed)]
+    ordered = [
+        (chapter, draw_all(chapter.plans, figures)) for chapter in chapters(results, curves.all, section, replayed)
+    ]
     return _template().render(
-        _first_screen(results, section, figures) | _tables(results),
+        _first_screen(results, curves.all, section, figures) | _tables(results, curves),
         doubts=[*reasons_for_doubt(results), *remarks],
         chapters=ordered,
         films=_films(replayed, section),
@@ -80,9 +84,9 @@ def render(results: Results, replayed: Replays | None, remarks: list[str], figur
     )
 
 
-def _first_screen(results: Results, section: Section, figures: Path) -> dict[str, Any]:
+def _first_screen(results: Results, curve: Curve, section: Section, figures: Path) -> dict[str, Any]:
     plans = [
-        Plan(name, "", partial(overview, results, section, width))
+        Plan(name, "", partial(overview, results, curve, section, width))
         for name, width in (("overview", WIDE), ("overview-narrow", COLUMN))
     ]
     return {
@@ -99,13 +103,13 @@ def _first_screen(results: Results, section: Section, figures: Path) -> dict[str
     }
 
 
-def _tables(results: Results) -> dict[str, Any]:
+def _tables(results: Results, curves: Curves) -> dict[str, Any]:
     slides, peak = results.outcomes.slides, look_at(results.scene).peak
     return {
         "factor": None if peak is None else f"{peak.factor:.2f}",
         "movement": places.movement(results) if slides else places.stillness(results),
-        "distances": distances.table(results),
-        "distance_data": distances.data(results) if slides else {},
+        "distances": distances.table(curves),
+        "distance_data": distances.data(curves) if slides else {},
         "toe": f"{results.data.attrs['toe_x']:g}",
         "sometimes": 0 < slides < results.outcomes.usable,
         "places": places.places(results) if slides else [],

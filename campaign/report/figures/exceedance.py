@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import PercentFormatter
 
-from campaign.report.distances import Curve, exceedance_curve
+from campaign.report.distances import Curve
 from campaign.report.figures.style import BLACK, BLUE, COLUMN, Illustration, need, need_slides, new_figure
 from campaign.report.figures.svg import on_hover
 from campaign.results.results import Results
@@ -18,11 +18,10 @@ STEPS = 40
 """Strips that tell their value on hover."""
 
 
-def exceedance(results: Results) -> Illustration:
+def exceedance(results: Results, curve: Curve) -> Illustration:
     """Draw the probability of a run-out beyond a distance, whether or not the slope slides."""
     n = results.slide_runouts.size
     need_slides(n, 2)
-    curve = exceedance_curve(results)
     need(curve.distance[-1] > 0, "No slide has come beyond the toe.")
     shortest, longest = curve.distance[1], curve.distance[-1]
     figure, (axes,) = new_figure(2.9, width=COLUMN)

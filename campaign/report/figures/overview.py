@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from campaign.report import estimates
-from campaign.report.distances import exceedance_curve
+from campaign.report.distances import Curve
 from campaign.report.figures.deposit import deposit_of, draw_deposit
 from campaign.report.figures.exceedance import draw_curve
 from campaign.report.figures.labels import highest, place_labels, write_labels
@@ -32,7 +32,7 @@ class Panels(NamedTuple):
     strip: Axes | None
 
 
-def overview(results: Results, section: Section, width: float) -> Illustration:
+def overview(results: Results, curve: Curve, section: Section, width: float) -> Illustration:
     """Draw the section with all that the first screen says of it, `width` inches wide."""
     scale = (width - LEFT - RIGHT) / section.right
     deposit, labels = deposit_of(results, section.surface.width), marks(results, section, width >= WIDE)
@@ -45,7 +45,7 @@ def overview(results: Results, section: Section, width: float) -> Illustration:
     draw_total_intervals(panels.section, results, section)
     write_labels(panels.section, placed, scale)
     if panels.strip is not None:
-        _reach(panels.strip, results, section)
+        _reach(panels.strip, results, curve, section)
     handles, names = panels.section.get_legend_handles_labels()
     columns = len(names) if width >= WIDE else 2
     panels.figure.legend(handles, names, loc="upper right", ncols=columns, borderaxespad=0.1, columnspacing=1.0)
@@ -64,10 +64,10 @@ def _panels(section: Section, width: float, has_slides: bool) -> Panels:
     return Panels(figure, axes, figure.add_axes(box))
 
 
-def _reach(axes: Axes, results: Results, section: Section) -> None:
+def _reach(axes: Axes, results: Results, curve: Curve, section: Section) -> None:
     """Draw how probable it is that a slide gets as far, and where each of them stopped."""
     toe = section.surface.toe[0]
-    draw_curve(axes, exceedance_curve(results), "", toe)
+    draw_curve(axes, curve, "", toe)
     axes.vlines(toe + results.slide_runouts, 0.0, 0.09, color=BLACK, linewidth=0.6, alpha=0.6)
     axes.set(xlim=(0, section.right), ylim=(0, 1.05), yticks=[0, 0.5, 1], xticklabels=[])
     axes.set_ylabel("reached (%)")

@@ -25,6 +25,10 @@ def results(runouts, statuses):
     return Results(xr.Dataset(data, {"realization": np.arange(n)}), SCENE)
 
 
+def table(given):
+    return distances.table(distances.curves_of(given))
+
+
 SOMETIMES = results([2.0, 0.3, 1.0, 0.3], [Status.slid, Status.no_slide] * 2)
 """Two of four slide, 1 and 2 m far."""
 
@@ -38,7 +42,7 @@ def test_the_curve_counts_who_runs_farther(distance, beyond):
 
 
 def test_the_script_gets_the_same_curve_in_per_cent():
-    data = distances.data(SOMETIMES)
+    data = distances.data(distances.curves_of(SOMETIMES))
     assert data["distance"] == [0.0, 1.0, 2.0]
     assert data["all_estimate"] == [50.0, 25.0, 0.0]
     assert data["sliding_estimate"] == [100.0, 50.0, 0.0]
@@ -47,7 +51,7 @@ def test_the_script_gets_the_same_curve_in_per_cent():
 
 def test_the_table_has_round_distances_from_all_slides_to_none():
     rng = np.random.default_rng(3)
-    rows = distances.table(results(rng.normal(10.0, 1.0, 40), [Status.slid] * 40))
+    rows = table(results(rng.normal(10.0, 1.0, 40), [Status.slid] * 40))
     assert 4 <= len(rows) <= 10
     assert rows[0].beyond.startswith("100 %")
     assert rows[-1].beyond.startswith("0 %")
@@ -56,11 +60,11 @@ def test_the_table_has_round_distances_from_all_slides_to_none():
 
 @pytest.mark.parametrize("runouts", [[5.0], [5.0, 5.0], [0.0, 0.0]])
 def test_few_or_equal_slides_give_a_table(runouts):
-    assert distances.table(results(runouts, [Status.slid] * len(runouts)))
+    assert table(results(runouts, [Status.slid] * len(runouts)))
 
 
 def test_nothing_slid_means_no_table():
-    assert distances.table(results([0.0], [Status.no_slide])) == []
+    assert table(results([0.0], [Status.no_slide])) == []
 
 
 def test_the_first_numbers_are_of_the_slides():

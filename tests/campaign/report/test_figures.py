@@ -11,9 +11,10 @@ from small_campaign import small_scene
 
 import campaign
 from campaign.record import Status
+from campaign.report.distances import exceedance_curve
+from campaign.report.figures import exceedance as of_exceedance
 from campaign.report.figures.convergence import convergence
 from campaign.report.figures.curves import curves
-from campaign.report.figures.exceedance import exceedance
 from campaign.report.figures.histogram import histogram
 from campaign.report.figures.section import section_of
 from campaign.report.figures.stack import upper_limit
@@ -47,6 +48,10 @@ def results(runouts, statuses=None):
         {"verdict": f"not converged after {n} realizations"},
     )
     return Results(data, SCENE)
+
+
+def exceedance(given):
+    return of_exceedance.exceedance(given, exceedance_curve(given))
 
 
 NORMAL = np.random.default_rng(5).normal(9.0, 0.5, 40)
