@@ -48,7 +48,7 @@ from solver.operations import (
     remap_velocity,
     solve_momentum,
 )
-from solver.scheme import CELL_AVERAGE, MUSL, USF, USL
+from solver.scheme import CELL_AVERAGE, MUSL, USF, USL, Scheme
 from solver.tiles import (
     INCREMENT_XX,
     INCREMENT_XY,
@@ -83,6 +83,7 @@ from solver.transfer import (
 )
 
 STEPS_BETWEEN_SORTS = 64
+WITHOUT_CELLS = Scheme(USF, 1.0, 0.0)
 
 
 class Workspace(NamedTuple):
@@ -233,7 +234,7 @@ def accelerate(tiles, grid, work, scheme, gravity, dt):
     if scheme.stress_update == USF:
         if not move_each(tiles, grid, gravity, work.ledger):
             return False
-        spread_each(tiles, grid, scheme)
+        spread_each(tiles, grid, WITHOUT_CELLS)  # mass and momentum; the strains of cells are in the particles already
         grid.remapped[:] = grid.momentum
     remap_velocity(grid)
     return True

@@ -48,12 +48,12 @@ def model_with(basis, step, internal_length):
     return MODEL._replace(method=method, internal_length=internal_length)
 
 
-def fused_step(start, basis, step, gravity, rate):
-    """Return particles, nodes and energy ledger after one step of ``advance``."""
+def fused_step(start, basis, step, gravity, rate, steps=1):
+    """Return particles, nodes and energy ledger after one call of ``advance``."""
     particles, work = copy_particles(start), allocate_workspace(start.x.size)
     model = model_with(basis, step, INTERNAL_LENGTH if step.has_internal_length else 0.0)
     grid, scheme = model.allocate_grid(), scheme_of(model.method, step.damping, step.has_internal_length)
-    assert advance(particles, grid, work, model.laws, scheme, gravity, rate, DT, 1) == 1
+    assert advance(particles, grid, work, model.laws, scheme, gravity, rate, DT, steps) == steps
     return particles, grid, work.ledger
 
 
@@ -99,14 +99,32 @@ def largest_deviation(start, basis, method, gravity=STANDARD_GRAVITY, rate=0.0):
 METHODS = [
     StepChoices(u, 1.0, 0.0, c, n) for u, c, n in itertools.product(STRESS_UPDATES, (False, True), (False, True))
 ]
+IDS = [f"{method.stress_update}-{method.has_cell_averages}-{method.has_internal_length}" for method in METHODS]
 
 
 @pytest.mark.parametrize("basis", BASES)
-@pytest.mark.parametrize(
-    "method", METHODS, ids=lambda m: f"{m.stress_update}-{m.has_cell_averages}-{m.has_internal_length}"
-)
+@pytest.mark.parametrize("method", METHODS, ids=IDS)
 def test_a_step_is_that_of_the_box(mid_slide, basis, method):
     assert largest_deviation(mid_slide, basis, method) < TOLERANCE
+
+
+@pytest.mark.parametrize("method", METHODS, ids=IDS)
+def test_steps_that_follow_each_other_are_those_of_the_box(mid_slide, method):
+    """What a step leaves in nodes and cells is nothing that the next one counts again; round-off grows a little."""
+    found, steps = fused_step(mid_slide, "gimp", method, STANDARD_GRAVITY, 0.0, steps=4)[0], mid_slide
+    for _ in range(4):
+        steps = plain_step(steps, "gimp", method, STANDARD_GRAVITY, 0.0).particles
+    assert max(deviation(*pair) for pair in zip(found, steps, strict=True)) < 10.0 * TOLERANCE
+
+
+@pytest.mark.parametrize("stress_update", STRESS_UPDATES)
+def test_sorting_particles_on_the_way_changes_nothing(mid_slide, stress_update):
+    """Ten calls of ``advance`` sort ten times, one of as many steps twice; round-off grows by the step."""
+    method, calls = StepChoices(stress_update, 1.0, 0.0, True, True), mid_slide
+    found = fused_step(mid_slide, "gimp", method, STANDARD_GRAVITY, 0.0, steps=130)[0]
+    for _ in range(10):
+        calls = fused_step(calls, "gimp", method, STANDARD_GRAVITY, 0.0, steps=13)[0]
+    assert max(deviation(*pair) for pair in zip(found, calls, strict=True)) < 1e-9
 
 
 @pytest.mark.parametrize("basis", BASES)
