@@ -11,7 +11,8 @@ in ``transfer``.
 from typing import NamedTuple
 
 from solver._jit import inlined
-from solver.lanes import WIDTH, bits, lane_numbers, load, spill_1, splat, store, up_1, where
+from solver.constants import LANE_COUNT
+from solver.lanes import bits, lane_numbers, load, spill_1, splat, store, up_1, where
 
 
 class Shares(NamedTuple):
@@ -94,13 +95,13 @@ def deposit_pool(sums_of_cells, row, column, sums, grid):
 @inlined
 def _deposit_two(field, start, sums):
     store(field, start, load(field, start) + (sums[0] + up_1(sums[1])))
-    store(field, start + WIDTH, load(field, start + WIDTH) + spill_1(sums[1]))
+    store(field, start + LANE_COUNT, load(field, start + LANE_COUNT) + spill_1(sums[1]))
 
 
 @inlined
 def average(sums, volumes, least):
     """Turn sums over cells (rows, columns) into means, in place; 0 where the volume is not above ``least`` (m2)."""
-    for k in range(0, sums.size, WIDTH):
+    for k in range(0, sums.size, LANE_COUNT):
         volume = load(volumes, k)
         has_volume = volume > least
         if bits(has_volume):

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solver.constants import LANES
+from solver.constants import LANE_COUNT
 
 PADDING = 2  # layers of nodes beyond a wall: GIMP weights reach one, a particle pressed into the wall a second
 SCALARS = ("mass", "cell_volume", "cell_dilation", "cell_pressure", "cell_plastic_strain")
@@ -72,7 +72,7 @@ def allocate_grid(
     cells_x = whole_cells(width, cell_size)
     cells_y = whole_cells(height, cell_size)
     base_columns = cells_x + 1 + 2 * PADDING - 2
-    columns = LANES * (-(-base_columns // LANES) + 1)
+    columns = LANE_COUNT * (-(-base_columns // LANE_COUNT) + 1)
     rows = cells_y + 1 + 2 * PADDING
     i = np.arange(columns) - PADDING
     j = np.arange(rows) - PADDING

@@ -19,15 +19,14 @@ from numba.core import cgutils, types
 from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
 from numba.extending import lower_builtin, models, register_model
 
-from solver import constants
 from solver._jit import FAST_MATH, chosen_by_type
+from solver.constants import LANE_COUNT
 
-WIDTH = constants.LANES
 intrinsic: Any = extending.intrinsic  # a kernel gives the first argument of what it decorates
 
-_VECTOR = ir.VectorType(ir.DoubleType(), WIDTH)
-_BITS = ir.VectorType(ir.IntType(1), WIDTH)
-_PLACES = ir.VectorType(ir.IntType(32), WIDTH)
+_VECTOR = ir.VectorType(ir.DoubleType(), LANE_COUNT)
+_BITS = ir.VectorType(ir.IntType(1), LANE_COUNT)
+_PLACES = ir.VectorType(ir.IntType(32), LANE_COUNT)
 _FLAGS = tuple(sorted(FAST_MATH))
 
 
@@ -35,14 +34,14 @@ class Lanes(types.Type):
     """Eight floats."""
 
     def __init__(self) -> None:
-        super().__init__(name=f"Lanes{WIDTH}")
+        super().__init__(name=f"Lanes{LANE_COUNT}")
 
 
 class Mask(types.Type):
     """Eight truth values."""
 
     def __init__(self) -> None:
-        super().__init__(name=f"Mask{WIDTH}")
+        super().__init__(name=f"Mask{LANE_COUNT}")
 
 
 LANES, MASK, FLOAT = Lanes(), Mask(), types.float64
@@ -70,7 +69,7 @@ def _lifted(builder: Any, kind: Any, value: Any) -> Any:
         return value
     undefined = ir.Constant(_VECTOR, ir.Undefined)
     first = builder.insert_element(undefined, value, ir.Constant(ir.IntType(32), 0))
-    return _shuffle(builder, first, undefined, [0] * WIDTH)
+    return _shuffle(builder, first, undefined, [0] * LANE_COUNT)
 
 
 def _declare(function: Any, signatures: list[Any]) -> None:
@@ -94,7 +93,7 @@ def _llvm(name: str) -> Any:
 
     def emit(builder: Any, a: Any) -> Any:
         kind = ir.FunctionType(_VECTOR, [_VECTOR])
-        return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64"), [a])
+        return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{LANE_COUNT}f64"), [a])
 
     return emit
 
@@ -131,7 +130,7 @@ for _sign, _function in (
     _register(_function, MASK, _TWO, _compared(_sign))
 _register(max, LANES, _TWO, _chosen(">"))
 _register(min, LANES, _TWO, _chosen("<"))
-_register(operator.neg, LANES, _ONE, lambda builder, a: builder.fsub(ir.Constant(_VECTOR, [-0.0] * WIDTH), a))
+_register(operator.neg, LANES, _ONE, lambda builder, a: builder.fsub(ir.Constant(_VECTOR, [-0.0] * LANE_COUNT), a))
 _register(abs, LANES, _ONE, _llvm("fabs"))
 _register(math.sqrt, LANES, _ONE, _llvm("sqrt"))
 
@@ -171,7 +170,7 @@ def bits(typing_context: Any, mask: Any) -> Any:
     """Return the lanes of a mask as the bits of an integer, lane 0 the lowest."""
 
     def emit(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-        return builder.zext(builder.bitcast(args[0], ir.IntType(WIDTH)), ir.IntType(64))
+        return builder.zext(builder.bitcast(args[0], ir.IntType(LANE_COUNT)), ir.IntType(64))
 
     return types.int64(MASK), emit
 
@@ -197,7 +196,7 @@ def splat(typing_context: Any, value: Any) -> Any:
 @intrinsic
 def lane_numbers(typing_context: Any) -> Any:
     """Return 0, 1, ... 7."""
-    return LANES(), lambda context, builder, sig, args: ir.Constant(_VECTOR, [float(i) for i in range(WIDTH)])
+    return LANES(), lambda context, builder, sig, args: ir.Constant(_VECTOR, [float(i) for i in range(LANE_COUNT)])
 
 
 @intrinsic
@@ -206,7 +205,7 @@ def total(typing_context: Any, a: Any) -> Any:
 
     def emit(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         kind = ir.FunctionType(ir.DoubleType(), [ir.DoubleType(), _VECTOR])
-        name = f"llvm.vector.reduce.fadd.v{WIDTH}f64"
+        name = f"llvm.vector.reduce.fadd.v{LANE_COUNT}f64"
         function = cgutils.get_or_insert_function(builder.module, kind, name)
         return builder.call(function, [ir.Constant(ir.DoubleType(), 0.0), args[0]], fastmath=_FLAGS)
 
@@ -242,14 +241,14 @@ def store(typing_context: Any, array: Any, start: Any, value: Any) -> Any:
 
 
 def _shift(count: int, keeps: bool) -> Any:
-    lanes = range(WIDTH)
-    kept = [i - count if i >= count else WIDTH for i in lanes]
-    spilled = [WIDTH - count + i if i < count else WIDTH for i in lanes]
+    lanes = range(LANE_COUNT)
+    kept = [i - count if i >= count else LANE_COUNT for i in lanes]
+    spilled = [LANE_COUNT - count + i if i < count else LANE_COUNT for i in lanes]
 
     @intrinsic
     def shift(typing_context: Any, a: Any) -> Any:
         def emit(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-            nothing = ir.Constant(_VECTOR, [0.0] * WIDTH)
+            nothing = ir.Constant(_VECTOR, [0.0] * LANE_COUNT)
             return _shuffle(builder, args[0], nothing, kept if keeps else spilled)
 
         return LANES(LANES), emit

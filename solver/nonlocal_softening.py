@@ -24,7 +24,7 @@ smoothed alike (``internal_length`` says how much), and their quotient is read b
 import numpy as np
 
 from solver._jit import kernel
-from solver.constants import LANES
+from solver.constants import LANE_COUNT
 from solver.lanes import load, store
 
 
@@ -44,14 +44,14 @@ def smooth(sums, weights):
     along = np.empty_like(sums)
     for row in range(rows):
         margin[reach : reach + columns] = sums[row]
-        for column in range(0, columns, LANES):
+        for column in range(0, columns, LANE_COUNT):
             total = weights[0] * load(margin, column)
             for k in range(1, weights.size):
                 total = total + weights[k] * load(margin, column + k)
             store(along, row * columns + column, total)
     for row in range(rows):
         low, high = max(row - reach, 0), min(row + reach, rows - 1)
-        for column in range(0, columns, LANES):
+        for column in range(0, columns, LANE_COUNT):
             total = weights[low - row + reach] * load(along, low * columns + column)
             for other in range(low + 1, high + 1):
                 total = total + weights[other - row + reach] * load(along, other * columns + column)

@@ -1,7 +1,7 @@
 """The operations of a time step between the transfers, on all nodes or on a block of eight particles (see ``step``)."""
 
 from solver._jit import inlined
-from solver.constants import LANES
+from solver.constants import LANE_COUNT
 from solver.grid import SMALLEST_MASS
 from solver.lanes import bits, load, splat, store, where
 from solver.materials import deformed
@@ -32,7 +32,7 @@ def clear_state(grid):
     """Empty the nodes before the particles spread their state to them."""
     nothing = splat(0.0)
     for row in range(grid.rows):
-        for column in range(0, grid.columns, LANES):
+        for column in range(0, grid.columns, LANE_COUNT):
             node = row * grid.columns + column
             if bits(load(grid.mass, node) > 0.0):
                 x = node + row * grid.columns
@@ -61,7 +61,7 @@ def solve_momentum(grid, gravity, damping, dt):
         In s.
     """
     for row in range(grid.rows):
-        for column in range(0, grid.columns, LANES):
+        for column in range(0, grid.columns, LANE_COUNT):
             node = row * grid.columns + column
             x = node + row * grid.columns
             mass = load(grid.mass, node)
@@ -93,7 +93,7 @@ def sign(v):
 def remap_velocity(grid):
     """Turn remapped momentum into velocity that respects the walls."""
     for row in range(grid.rows):
-        for column in range(0, grid.columns, LANES):
+        for column in range(0, grid.columns, LANE_COUNT):
             node = row * grid.columns + column
             mass = load(grid.mass, node)
             has_mass = mass > SMALLEST_MASS

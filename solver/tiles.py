@@ -16,7 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from solver._jit import inlined, kernel
-from solver.lanes import WIDTH, bits, lane_numbers, load, store
+from solver.constants import LANE_COUNT
+from solver.lanes import bits, lane_numbers, load, store
 from solver.particles import UNYIELDING, Particles
 
 # Fields of a block: those of the particles in their order, then what a step keeps until it ends.
@@ -28,8 +29,9 @@ INCREMENT_XX, INCREMENT_XY, INCREMENT_YX, INCREMENT_YY = 19, 20, 21, 22  # displ
 PLASTIC_INCREMENT = 23  # of the plastic strain, until it is averaged
 FIELDS = 24
 
-BLOCK = FIELDS * WIDTH
+BLOCK = FIELDS * LANE_COUNT
 USED, LEAVERS = 0, 1  # entries of ``Tiles.counts``: blocks in use, particles that have left their base cell
+STEPS_BETWEEN_SORTS = 64
 MIDDLE = 0.75  # of the place of an empty lane, in cells from its base node: it touches no third node
 
 
@@ -53,6 +55,7 @@ class TileStore(NamedTuple):
     tile: np.ndarray
     gone: np.ndarray
     leavers: np.ndarray
+    cell: np.ndarray  # (n,) flat number of the base cell of a particle
     rank: np.ndarray  # (n,) how many particles of the same base cell come before
 
 
@@ -63,14 +66,15 @@ def allocate_tiles(n_particles: int) -> TileStore:
     used is never touched, so that it takes no memory.
     """
     capacity = 2 * n_particles + 1
-    room = np.empty(capacity * BLOCK + WIDTH)
-    start = -(room.ctypes.data // room.itemsize) % WIDTH
+    room = np.empty(capacity * BLOCK + LANE_COUNT)
+    start = -(room.ctypes.data // room.itemsize) % LANE_COUNT
     return TileStore(
-        blocks=room[start : start + capacity * BLOCK].reshape(capacity, FIELDS, WIDTH),
+        blocks=room[start : start + capacity * BLOCK].reshape(capacity, FIELDS, LANE_COUNT),
         following=np.empty(capacity, np.int64),
         tile=np.empty(capacity, np.int64),
         gone=np.empty(capacity, np.int64),
         leavers=np.empty((n_particles, FIELDS)),
+        cell=np.empty(n_particles, np.int64),
         rank=np.empty(n_particles, np.int64),
     )
 
@@ -78,14 +82,14 @@ def allocate_tiles(n_particles: int) -> TileStore:
 @inlined
 def tiles_in_row(grid):
     """Return how many tiles a row of the grid has; eight more columns take what spills over."""
-    return grid.columns // WIDTH - 1
+    return grid.columns // LANE_COUNT - 1
 
 
 @inlined
 def place_of(tile, grid):
     """Return row and first column of the base cells of a tile."""
     row = tile // tiles_in_row(grid)
-    return row, (tile - row * tiles_in_row(grid)) * WIDTH
+    return row, (tile - row * tiles_in_row(grid)) * LANE_COUNT
 
 
 @inlined
@@ -107,35 +111,35 @@ def take(tiles, block):
     """Return the particles of a block as lanes."""
     k, blocks = block * BLOCK, tiles.blocks
     return Particles(
-        load(blocks, k + X * WIDTH),
-        load(blocks, k + Y * WIDTH),
-        load(blocks, k + VELOCITY_X * WIDTH),
-        load(blocks, k + VELOCITY_Y * WIDTH),
-        load(blocks, k + MASS * WIDTH),
-        load(blocks, k + VOLUME * WIDTH),
-        load(blocks, k + STRESS_XX * WIDTH),
-        load(blocks, k + STRESS_YY * WIDTH),
-        load(blocks, k + STRESS_ZZ * WIDTH),
-        load(blocks, k + STRESS_XY * WIDTH),
-        load(blocks, k + PLASTIC_STRAIN * WIDTH),
-        load(blocks, k + COHESION * WIDTH),
-        load(blocks, k + FRICTION_ANGLE * WIDTH),
-        load(blocks, k + COHESION_RESIDUAL * WIDTH),
-        load(blocks, k + FRICTION_ANGLE_RESIDUAL * WIDTH),
-        load(blocks, k + MATERIAL * WIDTH),
+        load(blocks, k + X * LANE_COUNT),
+        load(blocks, k + Y * LANE_COUNT),
+        load(blocks, k + VELOCITY_X * LANE_COUNT),
+        load(blocks, k + VELOCITY_Y * LANE_COUNT),
+        load(blocks, k + MASS * LANE_COUNT),
+        load(blocks, k + VOLUME * LANE_COUNT),
+        load(blocks, k + STRESS_XX * LANE_COUNT),
+        load(blocks, k + STRESS_YY * LANE_COUNT),
+        load(blocks, k + STRESS_ZZ * LANE_COUNT),
+        load(blocks, k + STRESS_XY * LANE_COUNT),
+        load(blocks, k + PLASTIC_STRAIN * LANE_COUNT),
+        load(blocks, k + COHESION * LANE_COUNT),
+        load(blocks, k + FRICTION_ANGLE * LANE_COUNT),
+        load(blocks, k + COHESION_RESIDUAL * LANE_COUNT),
+        load(blocks, k + FRICTION_ANGLE_RESIDUAL * LANE_COUNT),
+        load(blocks, k + MATERIAL * LANE_COUNT),
     )
 
 
 @inlined
 def get(tiles, block, field):
     """Return one field of a block as lanes."""
-    return load(tiles.blocks, block * BLOCK + field * WIDTH)
+    return load(tiles.blocks, block * BLOCK + field * LANE_COUNT)
 
 
 @inlined
 def put(tiles, block, field, value):
     """Set one field of a block."""
-    store(tiles.blocks, block * BLOCK + field * WIDTH, value)
+    store(tiles.blocks, block * BLOCK + field * LANE_COUNT, value)
 
 
 @inlined
@@ -154,7 +158,7 @@ def empty_lane(tiles, block, lane, row, column, grid):
 def empty_block(tiles, block, row, column, grid):
     """Leave nothing in a block of the tile whose base cells are at ``row``, from ``column`` on."""
     tiles.gone[block] = 0
-    for lane in range(WIDTH):
+    for lane in range(LANE_COUNT):
         empty_lane(tiles, block, lane, row, column + lane, grid)
 
 
@@ -170,22 +174,22 @@ def fill_tiles(particles, grid, store):
         Its arrays become those of the tiles.
     """
     n = particles.x.size
-    crowd = np.zeros((grid.rows, grid.columns), np.int64)
+    crowd = np.zeros(grid.rows * grid.columns, np.int64)
     for p in range(n):
-        row, column = base_cell(particles.y[p], grid), base_cell(particles.x[p], grid)
-        store.rank[p] = crowd[row, column]
-        crowd[row, column] += 1
+        cell = base_cell(particles.y[p], grid) * grid.columns + base_cell(particles.x[p], grid)
+        store.cell[p], store.rank[p] = cell, crowd[cell]
+        crowd[cell] += 1
     first = np.full(grid.rows * tiles_in_row(grid), -1, np.int64)
     tiles = Tiles(store.blocks, store.following, first, store.tile, store.gone, store.leavers, np.zeros(2, np.int64))
     for tile in range(first.size):
         row, column = place_of(tile, grid)
-        height = crowd[row, column : column + WIDTH].max()
-        for _ in range(height):
+        cell = row * grid.columns + column
+        for _ in range(crowd[cell : cell + LANE_COUNT].max()):
             add_block(tiles, tile, row, column, grid)
     for p in range(n):
-        row, column = base_cell(particles.y[p], grid), base_cell(particles.x[p], grid)
-        block = first[row * tiles_in_row(grid) + column // WIDTH] - store.rank[p]
-        at = tiles.blocks[block, :, column % WIDTH]
+        row, column = divmod(store.cell[p], grid.columns)
+        block = first[row * tiles_in_row(grid) + column // LANE_COUNT] - store.rank[p]
+        at = tiles.blocks[block, :, column % LANE_COUNT]
         at[X], at[Y] = particles.x[p], particles.y[p]
         at[VELOCITY_X], at[VELOCITY_Y] = particles.velocity_x[p], particles.velocity_y[p]
         at[MASS], at[VOLUME] = particles.mass[p], particles.volume[p]
@@ -225,7 +229,7 @@ def write_back(at, particles):
 def empty_tiles(tiles, particles):
     """Give the particles (n,) the state that they have in the tiles, or that they left the grid with."""
     for block in range(tiles.counts[USED]):
-        for lane in range(WIDTH):
+        for lane in range(LANE_COUNT):
             if tiles.blocks[block, MASS, lane] > 0.0:
                 write_back(tiles.blocks[block, :, lane], particles)
     for leaver in range(tiles.counts[LEAVERS]):
@@ -237,6 +241,13 @@ def sort_again(tiles, particles, grid, store):
     """Return the particles (n,) in blocks without holes; arguments are those of ``fill_tiles``."""
     empty_tiles(tiles, particles)
     return fill_tiles(particles, grid, store)
+
+
+@kernel
+def sort_if_due(tiles, step, particles, grid, store):
+    """Return the same now and then, by the number of the step, and where the room for blocks runs out."""
+    is_due = step % STEPS_BETWEEN_SORTS == STEPS_BETWEEN_SORTS - 1 or tiles.counts[USED] > particles.x.size
+    return sort_again(tiles, particles, grid, store) if is_due else tiles
 
 
 @inlined
@@ -269,7 +280,7 @@ def take_out_leavers(tiles, grid):
     for block in range(tiles.counts[USED]):
         if tiles.gone[block]:
             row, column = place_of(tiles.tile[block], grid)
-            for lane in range(WIDTH):
+            for lane in range(LANE_COUNT):
                 if (tiles.gone[block] >> lane) & 1:
                     tiles.leavers[leaver] = tiles.blocks[block, :, lane]
                     leaver += 1
@@ -284,7 +295,7 @@ def settle(tiles, fields, grid):
     if not is_on_grid(fields[X], fields[Y], grid):
         return False
     row, column = base_cell(fields[Y], grid), base_cell(fields[X], grid)
-    tile, lane = row * tiles_in_row(grid) + column // WIDTH, column % WIDTH
+    tile, lane = row * tiles_in_row(grid) + column // LANE_COUNT, column % LANE_COUNT
     block = tiles.first[tile]
     while block >= 0 and tiles.blocks[block, MASS, lane] > 0.0:
         block = tiles.following[block]

@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 from solver._jit import inlined
 from solver.basis import weight_and_gradient
-from solver.lanes import WIDTH, lane_numbers, load, spill_1, spill_2, splat, store, up_1, up_2
+from solver.constants import LANE_COUNT
+from solver.lanes import lane_numbers, load, spill_1, spill_2, splat, store, up_1, up_2
 
 
 class Weights(NamedTuple):
@@ -85,7 +86,7 @@ def plus(sums, s, value):
 def deposit(field, start, sums):
     """Add the sums of the three nodes of each lane to a row of nodes, from the flat index ``start`` on."""
     store(field, start, load(field, start) + (sums[0] + up_1(sums[1]) + up_2(sums[2])))
-    store(field, start + WIDTH, load(field, start + WIDTH) + (spill_1(sums[1]) + spill_2(sums[2])))
+    store(field, start + LANE_COUNT, load(field, start + LANE_COUNT) + (spill_1(sums[1]) + spill_2(sums[2])))
 
 
 class Momentum(NamedTuple):

@@ -6,14 +6,15 @@ import numpy as np
 
 from solver._jit import kernel
 from solver.basis import allocate_stencil, evaluate_stencil
-from solver.constants import LANES
+from solver.constants import LANE_COUNT
 from solver.grid import NO_SMOOTHING, allocate_grid
 from solver.laws.mohr_coulomb import mohr_coulomb
 from solver.laws.registry import Constants
 from solver.operations import solve_momentum
 from solver.scheme import STRESS_UPDATES, Scheme
 from solver.softening import NO_SOFTENING
-from solver.step import accelerate, allocate_workspace, deform, spread_all
+from solver.spread import spread_all
+from solver.step import accelerate, allocate_workspace, deform
 from solver.tiles import MASS, MOVED_X, USED, empty_tiles, fill_tiles
 
 UGIMP, B_SPLINE, LINEAR = 0.25, 0.5, 1e-6  # half lengths in cells, at four particles a cell
@@ -121,7 +122,7 @@ def solve(grid, gravity, damping, dt):
 def wrap_around(tiles, width):
     """Let particles that move beyond a side come back at the other, ``width`` m away."""
     for block in range(tiles.counts[USED]):
-        for lane in range(LANES):
+        for lane in range(LANE_COUNT):
             if tiles.blocks[block, MASS, lane] > 0.0:
                 tiles.blocks[block, MOVED_X, lane] %= width
 

@@ -22,9 +22,10 @@ from solver.operations import solve_momentum
 from solver.particles import copy_particles
 from solver.scheme import scheme_of
 from solver.softening import NO_SOFTENING
-from solver.step import STEPS_BETWEEN_SORTS, accelerate, advance, allocate_workspace, deform, spread_all
+from solver.spread import spread_all
+from solver.step import accelerate, advance, allocate_workspace, deform
 from solver.surface import Surface
-from solver.tiles import empty_tiles, fill_tiles, sort_again
+from solver.tiles import empty_tiles, fill_tiles, sort_if_due
 from solver.timestep import stable_step
 
 PRANDTL = 2.0 + math.pi  # exact limit of a strip load over the cohesion, on Tresca ground
@@ -75,8 +76,7 @@ def push(particles, grid, work, laws, scheme, footing, velocity, dt, steps):
     tiles = fill_tiles(particles, grid, work.tiles)
     spread_all(tiles, grid, scheme)
     for step in range(steps):
-        if step % STEPS_BETWEEN_SORTS == STEPS_BETWEEN_SORTS - 1:
-            tiles = sort_again(tiles, particles, grid, work.tiles)
+        tiles = sort_if_due(tiles, step, particles, grid, work.tiles)
         solve_momentum(grid, 0.0, scheme.damping, dt)
         force += prescribe(grid, footing, velocity, dt)
         accelerate(tiles, grid, work, scheme, 0.0, dt)

@@ -26,8 +26,9 @@ from solver._jit import kernel
 from solver.elastic import shear_modulus
 from solver.operations import INTERNAL_WORK, solve_momentum
 from solver.particles import allocate_particles
-from solver.step import STEPS_BETWEEN_SORTS, accelerate, allocate_workspace, deform, spread_all
-from solver.tiles import empty_tiles, fill_tiles, sort_again
+from solver.spread import spread_all
+from solver.step import accelerate, allocate_workspace, deform
+from solver.tiles import empty_tiles, fill_tiles, sort_if_due
 
 RADIUS, HELD, DRIVEN, RIM, SIZE = 6.0, 4.0, 8.0, 2.0, 22.0  # m: of the band, the rigid parts, the rims, the grid
 SLIP, SAMPLES = 0.8, 40  # m at RADIUS, where the drive is DRIVE, looks on the way
@@ -40,8 +41,7 @@ def turn(particles, grid, work, laws, scheme, is_held, is_driven, velocity, dt, 
     tiles = fill_tiles(particles, grid, work.tiles)
     spread_all(tiles, grid, scheme)
     for step in range(steps):
-        if step % STEPS_BETWEEN_SORTS == STEPS_BETWEEN_SORTS - 1:
-            tiles = sort_again(tiles, particles, grid, work.tiles)
+        tiles = sort_if_due(tiles, step, particles, grid, work.tiles)
         solve_momentum(grid, 0.0, scheme.damping, dt)
         for j in range(grid.rows):
             for i in range(grid.columns):

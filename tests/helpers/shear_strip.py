@@ -25,8 +25,9 @@ from solver.elastic import shear_modulus
 from solver.grid import PADDING, SMALLEST_MASS
 from solver.operations import INTERNAL_WORK, solve_momentum
 from solver.particles import allocate_particles
-from solver.step import STEPS_BETWEEN_SORTS, accelerate, allocate_workspace, deform, spread_all
-from solver.tiles import empty_tiles, fill_tiles, sort_again
+from solver.spread import spread_all
+from solver.step import accelerate, allocate_workspace, deform
+from solver.tiles import empty_tiles, fill_tiles, sort_if_due
 
 HEIGHT, RIM, COARSE_CELL, WIDTH_IN_CELLS = 10.0, 1.0, 0.5, 2  # m, m, m: rigid blocks at both ends are the walls
 RESIDUAL = 10e3  # Pa
@@ -59,8 +60,7 @@ def shear(particles, grid, work, laws, scheme, base, top, drive, dt, steps):
     tiles = fill_tiles(particles, grid, work.tiles)
     spread_all(tiles, grid, scheme)
     for step in range(steps):
-        if step % STEPS_BETWEEN_SORTS == STEPS_BETWEEN_SORTS - 1:
-            tiles = sort_again(tiles, particles, grid, work.tiles)
+        tiles = sort_if_due(tiles, step, particles, grid, work.tiles)
         share_in_rows(grid.momentum, grid.mass)
         share_in_rows(grid.force, grid.mass)
         solve_momentum(grid, 0.0, scheme.damping, dt)

@@ -7,8 +7,8 @@ import pytest
 from pointwise import law_of
 
 from solver._jit import kernel, point
+from solver.constants import LANE_COUNT
 from solver.lanes import (
-    WIDTH,
     anywhere,
     bits,
     lane_numbers,
@@ -40,7 +40,7 @@ def every_operation(a, b):
 
 @kernel
 def on_lanes(a, b, result):
-    for k in range(0, a.size, WIDTH):
+    for k in range(0, a.size, LANE_COUNT):
         store(result, k, every_operation(load(a, k), load(b, k)))
 
 
@@ -64,8 +64,8 @@ def test_a_function_of_floats_is_one_of_lanes():
 def moved(a, up, spilled):
     store(up, 0, up_1(load(a, 0)))
     store(spilled, 0, spill_1(load(a, 0)))
-    store(up, WIDTH, up_2(load(a, 0)))
-    store(spilled, WIDTH, spill_2(load(a, 0)))
+    store(up, LANE_COUNT, up_2(load(a, 0)))
+    store(spilled, LANE_COUNT, spill_2(load(a, 0)))
 
 
 def test_lanes_move_up_and_spill_over():
@@ -89,7 +89,7 @@ def test_a_sum_over_lanes_and_a_mask_as_bits():
 @kernel
 def largest_and_least(a, b, result):
     store(result, 0, max(load(a, 0), load(b, 0)))
-    store(result, WIDTH, min(load(a, 0), load(b, 0)))
+    store(result, LANE_COUNT, min(load(a, 0), load(b, 0)))
 
 
 def test_a_first_argument_that_is_not_a_number_stays():
@@ -101,7 +101,7 @@ def test_a_first_argument_that_is_not_a_number_stays():
 
 @kernel
 def update_lanes(law, stress, strain, kappa, c, phi, result):
-    for k in range(0, kappa.size, WIDTH):
+    for k in range(0, kappa.size, LANE_COUNT):
         n = kappa.size
         trial = load(stress, k), load(stress, n + k), load(stress, 2 * n + k), load(stress, 3 * n + k)
         increment = load(strain, k), load(strain, n + k), load(strain, 2 * n + k)

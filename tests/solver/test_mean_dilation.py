@@ -6,7 +6,7 @@ from small_slope import small_model, with_strength
 
 from solver import cells, mean_dilation
 from solver._jit import kernel
-from solver.constants import LANES
+from solver.constants import LANE_COUNT
 from solver.filling import ground_of
 from solver.in_situ import in_situ_state
 from solver.laws.mohr_coulomb import mohr_coulomb
@@ -16,7 +16,8 @@ from solver.operations import INTERNAL_WORK
 from solver.particles import copy_particles
 from solver.scheme import LOCKING, STRESS_UPDATES, Scheme
 from solver.softening import NO_SOFTENING
-from solver.step import allocate_workspace, deform, pool_all, spread_all
+from solver.spread import pool_all, spread_all
+from solver.step import allocate_workspace, deform
 from solver.tiles import MASS, MOVED_X, MOVED_Y, NUMBER, X, Y, fill_tiles, get, place_of, put
 
 MODEL = small_model()
@@ -47,7 +48,7 @@ def read_pressure(tiles, grid, means):
         while block >= 0:
             shares = cells.shares_of(get(tiles, block, X), get(tiles, block, Y), row, column, grid)
             put(tiles, block, MOVED_X, cells.read(grid.cell_pressure, row, column, shares, grid))
-            for lane in range(LANES):
+            for lane in range(LANE_COUNT):
                 if tiles.blocks[block, MASS, lane] > 0.0:
                     means[int(tiles.blocks[block, NUMBER, lane])] = tiles.blocks[block, MOVED_X, lane]
             block = tiles.following[block]

@@ -10,7 +10,7 @@ from solver.grid import allocate_grid
 from solver.in_situ import in_situ_state
 from solver.internal_length import BAND_THICKNESS, coarse_rate_factor, least_thickness, smoothing_weights
 from solver.march import march_to_rest
-from solver.step import spread_all
+from solver.spread import spread_all
 from solver.surface import Surface
 from solver.tiles import PLASTIC_INCREMENT, PLASTIC_STRAIN, allocate_tiles, empty_tiles, fill_tiles
 

@@ -5,7 +5,7 @@ import pytest
 from driver import MUSL, begin
 
 from solver._jit import kernel
-from solver.constants import LANES
+from solver.constants import LANE_COUNT
 from solver.filling import fill_ground
 from solver.grid import allocate_grid
 from solver.lanes import store
@@ -75,7 +75,7 @@ def test_internal_forces_of_a_symmetric_stress_exert_no_moment(half_length):
 @kernel
 def read_field(tiles, grid, values, gradients):
     """Fill ``values`` (n, 2) and ``gradients`` (n, 4) with what the particles read of the nodal velocity."""
-    lanes = np.empty((6, LANES))
+    lanes = np.empty((6, LANE_COUNT))
     for tile in range(tiles.first.size):
         row, column = place_of(tile, grid)
         block = tiles.first[tile]
@@ -84,12 +84,12 @@ def read_field(tiles, grid, values, gradients):
             x, y = interpolate(grid.velocity, row, column, w, grid)
             xx, xy, yx, yy = gradient(grid.velocity, row, column, w, grid)
             store(lanes, 0, x)
-            store(lanes, LANES, y)
-            store(lanes, 2 * LANES, xx)
-            store(lanes, 3 * LANES, xy)
-            store(lanes, 4 * LANES, yx)
-            store(lanes, 5 * LANES, yy)
-            for lane in range(LANES):
+            store(lanes, LANE_COUNT, y)
+            store(lanes, 2 * LANE_COUNT, xx)
+            store(lanes, 3 * LANE_COUNT, xy)
+            store(lanes, 4 * LANE_COUNT, yx)
+            store(lanes, 5 * LANE_COUNT, yy)
+            for lane in range(LANE_COUNT):
                 if tiles.blocks[block, MASS, lane] > 0.0:
                     p = int(tiles.blocks[block, NUMBER, lane])
                     values[p], gradients[p] = lanes[:2, lane], lanes[2:, lane]
