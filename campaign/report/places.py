@@ -7,6 +7,7 @@ import numpy as np
 
 from campaign.report.wording import bounds, number
 from campaign.results.results import Results
+from campaign.scene.sections import Receptor
 from campaign.statistics.intervals import Sample, quantile_interval
 from campaign.statistics.receptors import (
     EFFECTS,
@@ -73,7 +74,9 @@ def reach_estimates(results: Results) -> list[ReceptorEstimate]:
 
 def places(results: Results) -> list[Place]:
     """Return what the campaign says of each receptor."""
-    return [_place(results, receptor.name, receptor.x) for receptor in results.scene.receptor]
+    estimated = receptor_estimates(results.data, results.confidence)
+    reach = [each for each in estimated if each.quantity in REACHED.values() and each.interval.n]
+    return [_place(results, receptor, reach) for receptor in results.scene.receptor]
 
 
 def distribution(name: str, values: Sample, unit: str, confidence: float) -> Distribution:
@@ -86,12 +89,12 @@ def distribution(name: str, values: Sample, unit: str, confidence: float) -> Dis
     return Distribution(name, *columns)
 
 
-def _place(results: Results, name: str, stretch: tuple[float, float]) -> Place:
-    near, far = stretch
+def _place(results: Results, receptor: Receptor, reach: list[ReceptorEstimate]) -> Place:
+    name, (near, far) = receptor.name, receptor.x
     probabilities = [
         (each.quantity.removeprefix("probability that "), chance(each.interval.estimate), chances(each.interval))
-        for each in receptor_estimates(results.data, results.confidence)
-        if each.receptor == name and each.quantity in REACHED.values() and each.interval.n
+        for each in reach
+        if each.receptor == name
     ]
     reached = results.data.sel(receptor=name)["front_reaches"].values == 1.0
     where = f"x = {near:g} m" if near == far else f"x = {near:g} to {far:g} m"

@@ -8,8 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.errors import RefusalError
-from campaign.running.level import Level
 from campaign.running.side_run import Made, Means, SideRun, make
 from campaign.scene import Scene
 from campaign.scene.inputs import MORE, Input, inputs_of, raised, shown, with_more
@@ -17,7 +15,7 @@ from campaign.statistics.changed_inputs import InputEffects, differences, first_
 from campaign.statistics.repetition import without_rule
 from campaign.statistics.tally import Tally
 from campaign.storage.layout import CHANGED_INPUTS
-from campaign.terminal import say
+from campaign.terminal import counted
 
 
 class Found(NamedTuple):
@@ -50,18 +48,15 @@ def with_changed_inputs(scene: Scene, tally: Tally, means: Means) -> Found:
 
 
 def _repeated(scene: Scene, changed: Input, slides: tuple[int, ...], tally: Tally, means: Means) -> Made:
-    loss = f"What more {changed.name} changes cannot be estimated."
-    try:
-        other = without_rule(with_more(scene, changed), slides[-1] + 1)
-    except RefusalError as refusal:
-        say(f"{loss} {refusal}")
-        return Made(None, "")
-    announcement = (
-        f"Inputs: {len(slides)} slide{'s' if len(slides) > 1 else ''} again with {100 * MORE:g} % more {changed.name}, "
-        f"{shown(raised(scene, changed), changed)}."
+    again, value = counted(len(slides), "slide"), shown(raised(scene, changed), changed)
+    run = SideRun(
+        scene=lambda: without_rule(with_more(scene, changed), slides[-1] + 1),
+        directory=directory_of(means.home, changed),
+        announcement=f"Inputs: {again} again with {100 * MORE:g} % more {changed.name}, {value}.",
+        loss=f"What more {changed.name} changes cannot be estimated.",
+        known=[summary for k, summary in tally.summaries.items() if k not in slides],
     )
-    known = [summary for k, summary in tally.summaries.items() if k not in slides]
-    return make(SideRun(Level(other, directory_of(means.home, changed)), announcement, loss, known), means)
+    return make(run, means)
 
 
 def directory_of(home: Path, changed: Input) -> Path:

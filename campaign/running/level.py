@@ -1,4 +1,4 @@
-"""The realizations of a campaign on one mesh: the scene's own, or half its cell for the discretisation error."""
+"""The realizations of one scene and their directory: those of a campaign, or those of a run beside it."""
 
 import contextlib
 from collections.abc import Callable

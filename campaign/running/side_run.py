@@ -7,6 +7,7 @@ from typing import NamedTuple
 from campaign.errors import RefusalError
 from campaign.record import RealizationSummary
 from campaign.running.level import Level
+from campaign.scene import Scene
 from campaign.simulation.contract import Prepare, PreparedGround
 from campaign.statistics.tally import Tally
 from campaign.terminal import say
@@ -45,8 +46,10 @@ class SideRun(NamedTuple):
 
     Attributes
     ----------
-    level
-        Their scene and directory.
+    scene
+        Makes their scene; what it raises is told with the loss.
+    directory
+        Theirs.
     announcement
         Said before they begin.
     loss
@@ -55,7 +58,8 @@ class SideRun(NamedTuple):
         Those of them that need not be made.
     """
 
-    level: Level
+    scene: Callable[[], Scene]
+    directory: Path
     announcement: str
     loss: str
     known: Iterable[RealizationSummary] = ()
@@ -71,25 +75,26 @@ class Made(NamedTuple):
 def make(run: SideRun, means: Means) -> Made:
     """Make the runs that earlier starts have not made."""
     try:
-        for note in run.level.open():
+        level = Level(run.scene(), run.directory)
+        for note in level.open():
             say(note)
-        tally = _account(run)
+        tally = _account(level, run)
         if tally.size is None and not means.stopped:
-            return _compute(run, means)
+            return _compute(level, run, means)
     except RefusalError as refusal:
         say(f"{run.loss} {refusal}")
         return Made(None, "")
     except OSError as error:
-        return Made(None, f"{run.level.directory} cannot be written ({error})")
+        return Made(None, f"{run.directory} cannot be written ({error})")
     return _made(tally, means.stopped)
 
 
-def _compute(run: SideRun, means: Means) -> Made:
+def _compute(level: Level, run: SideRun, means: Means) -> Made:
     say(run.announcement)
-    ground = means.prepare(run.level.scene, means.home)
-    run.level.give_up_crashed(ground)
-    tally = _account(run)
-    stopped = means.hand_out(run.level, ground, tally)
+    ground = means.prepare(level.scene, means.home)
+    level.give_up_crashed(ground)
+    tally = _account(level, run)
+    stopped = means.hand_out(level, ground, tally)
     return _made(tally, stopped)
 
 
@@ -97,8 +102,8 @@ def _made(tally: Tally, stopped: str) -> Made:
     return Made(None, stopped) if tally.size is None else Made(tally, "")
 
 
-def _account(run: SideRun) -> Tally:
-    tally = run.level.tally()
+def _account(level: Level, run: SideRun) -> Tally:
+    tally = level.tally()
     for summary in run.known:
         tally.add(summary)
     return tally

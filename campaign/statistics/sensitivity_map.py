@@ -14,14 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
+from campaign.scene.inputs import MORE
 from campaign.statistics.intervals import Interval, Sample, normal_quantile
 from campaign.statistics.ridge import Matrix, Ridge, ridge
 
 FEWEST = 50
 """Slides, of fewer there is no map."""
-
-MORE = 0.1
-"""Share by which a property is raised in what the map tells: 10 %."""
 
 
 class SensitivityMap(NamedTuple):

@@ -38,6 +38,13 @@ def campaign(directory, realizations=40, ranks=2, overrides=(), **faults):
     return process.returncode, output
 
 
+def dataset_of(directory, *arguments, **keywords):
+    """Return the dataset of a campaign that must come to its end; arguments are those of ``campaign``."""
+    code, output = campaign(directory, *arguments, **keywords)
+    assert code == 0, output
+    return dataset(directory)
+
+
 def dataset(directory):
     with xr.open_dataset(directory / "results.nc") as data:
         return data.load()
@@ -68,24 +75,17 @@ def wait_for_the_end(directory):
 
 @pytest.fixture(scope="module")
 def alone(tmp_path_factory):
-    directory = tmp_path_factory.mktemp("alone") / "out"
-    code, output = campaign(directory, ranks=1)
-    assert code == 0, output
-    return dataset(directory)
+    return dataset_of(tmp_path_factory.mktemp("alone") / "out", ranks=1)
 
 
 @pytest.mark.parametrize("ranks", [2, 3])
 def test_the_number_of_ranks_leaves_no_trace(alone, tmp_path, ranks):
-    code, output = campaign(tmp_path / "out", ranks=ranks, seconds=0.01)
-    assert code == 0, output
-    assert_same(dataset(tmp_path / "out"), alone)
+    assert_same(dataset_of(tmp_path / "out", ranks=ranks, seconds=0.01), alone)
 
 
 def test_without_mpi_threads_rank_0_answers_between_its_steps(alone, tmp_path, monkeypatch):
     monkeypatch.setenv("MPI4PY_RC_THREAD_LEVEL", "funneled")
-    code, output = campaign(tmp_path / "out", ranks=3, seconds=0.01)
-    assert code == 0, output
-    assert_same(dataset(tmp_path / "out"), alone)
+    assert_same(dataset_of(tmp_path / "out", ranks=3, seconds=0.01), alone)
 
 
 def test_a_kill_in_the_middle_leaves_no_trace(alone, tmp_path):
@@ -249,10 +249,7 @@ PAIRS = "campaign.discretisation_pairs=6"
 
 @pytest.fixture(scope="module")
 def paired(tmp_path_factory):
-    directory = tmp_path_factory.mktemp("paired") / "out"
-    code, output = campaign(directory, 20, 1, [PAIRS])
-    assert code == 0, output
-    return dataset(directory)
+    return dataset_of(tmp_path_factory.mktemp("paired") / "out", 20, 1, [PAIRS])
 
 
 def test_half_the_cell_tells_the_discretisation_error(paired):
@@ -314,9 +311,7 @@ def test_an_end_among_the_repeated_leaves_no_trace(paired, tmp_path, number):
         assert process.returncode == 75, output
         assert "discretisation_error" not in dataset(directory)
     assert len(list(directory.glob("half-cell/records/realization-*.h5"))) < 6
-    code, output = campaign(directory, 20, 3, [PAIRS])
-    assert code == 0, output
-    assert_same(dataset(directory), paired)
+    assert_same(dataset_of(directory, 20, 3, [PAIRS]), paired)
 
 
 def test_what_failed_is_not_repeated(tmp_path):
@@ -332,10 +327,7 @@ MORE = "campaign.sensitivity_pairs=3"
 
 @pytest.fixture(scope="module")
 def with_more(tmp_path_factory):
-    directory = tmp_path_factory.mktemp("with-more") / "out"
-    code, output = campaign(directory, 20, 1, [MORE])
-    assert code == 0, output
-    return dataset(directory)
+    return dataset_of(tmp_path_factory.mktemp("with-more") / "out", 20, 1, [MORE])
 
 
 def test_slides_are_repeated_with_more_of_one_input(with_more):
