@@ -27,6 +27,7 @@ from campaign.report.replays import Replays, replays
 from campaign.report.wording import unbroken
 from campaign.results.results import Results, read_results
 from campaign.scene.first_look import look_at
+from campaign.statistics.total import has_mesh_error
 from campaign.storage.layout import FIGURES, REPORT
 from campaign.terminal import say
 
@@ -114,6 +115,7 @@ def _tables(results: Results, curves: Curves) -> dict[str, Any]:
         "sometimes": 0 < slides < results.outcomes.usable,
         "places": places.places(results) if slides else [],
         "budget": error_budget(results),
+        "has_mesh_error": results.outcomes.slides > 0 and has_mesh_error(results.discretisation),
         "input_sentences": inputs.sentences(results),
         "effects": inputs.effect_rows(results),
         "properties": inputs.property_rows(results),
