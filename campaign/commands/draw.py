@@ -6,7 +6,7 @@ from pathlib import Path
 from campaign.commands.scene_options import add_scene, read_scene
 from campaign.exit_codes import ExitCode
 
-HELP = "the section with toe, mesh and critical circle, and a realization's field"
+HELP = "the section with toe, mesh, receptors and critical circle, and a realization's field"
 
 FORMATS = (".png", ".svg")
 

@@ -43,11 +43,12 @@ def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
         "memory": f"About {data_size(rank_bytes(scene) + size.least)} a rank; the results take "
         f"{data_size(dataset_bytes(scene))}.",
     }
-    lines = [_paragraph(heading, text) for heading, text in paragraphs.items()]
+    lines = [paragraph(heading, text) for heading, text in paragraphs.items()]
     return "\n".join([f"{scene.title}: a valid scene.", *lines])
 
 
-def _paragraph(heading: str, text: str) -> str:
+def paragraph(heading: str, text: str) -> str:
+    """Return a text behind its heading, in lines."""
     return fill(text, WIDTH, initial_indent=f"  {heading}".ljust(MARGIN), subsequent_indent=" " * MARGIN)
 
 

@@ -9,6 +9,7 @@ from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, FirstLook
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
 from campaign.terminal import duration
+from solver.surface import Surface
 
 ABSURD_FACTOR = 5.0
 """Factor of safety beyond which a strength is more likely a slip of the pen than a soil."""
@@ -38,20 +39,28 @@ MANY_HOURS = 1e5
 
 
 def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
-    """Return what a user should know of a scene that can be run."""
+    """Return what a user should know of a scene that can be run, but for `expected_of_slides`."""
     return found(
         (
             far_from_failure(look),
-            short_run(scene, look),
-            short_ground(scene, look),
-            short_crest(scene, look),
-            thin_foundation(scene, look),
             coarse_cells(scene, look),
             short_interval(scene),
             damped_slide(scene),
             short_timeout(scene),
             large_campaign(scene),
             *(unusual_soil(scene, *row) for row in SOILS),
+        )
+    )
+
+
+def expected_of_slides(scene: Scene, look: FirstLook) -> list[Complaint]:
+    """Return what may stop slides before their end, by experience with others; a slide that was computed knows it."""
+    return found(
+        (
+            short_run(scene, look),
+            short_ground(scene, look),
+            short_crest(scene, look),
+            thin_foundation(scene, look),
         )
     )
 
@@ -91,9 +100,14 @@ def short_ground(scene: Scene, look: FirstLook) -> Complaint | None:
         f"slides of {look.height:g} m mostly run out 0.3 to 1.2 times their height, and the wall {length:g} m beyond "
         "the toe will hold them back"
     )
+    return longer_plain(scene, look.surface, needed, text)
+
+
+def longer_plain(scene: Scene, surface: Surface, needed: float, text: str) -> Complaint:
+    """Complain, for the reason in `text`, that the ground does not go on for `needed` m beyond the toe."""
     if scene.geometry.slope is not None:
         return Complaint("geometry.slope.plain", f'{text}; use at least "{rounded_up(needed)} m"')
-    end = look.surface.toe_x + needed
+    end = surface.toe_x + needed
     return Complaint("geometry.surface", f"{text}; continue the ground to x = {rounded_up(end)} m or farther")
 
 

@@ -1,5 +1,6 @@
 """A scene before it is run: its section with toe, mesh and critical circle, and the field of a realization."""
 
+from dataclasses import replace
 from pathlib import Path
 from textwrap import fill
 
@@ -10,6 +11,7 @@ from matplotlib.patches import Polygon
 
 from campaign.fields.properties import BY_NAME, SoilProperty
 from campaign.fields.strengths import Strengths
+from campaign.report.figures.labels import Label, highest, place_labels, write_labels
 from campaign.report.figures.section import SKY, Section
 from campaign.report.figures.style import BLACK, BLUE, GREY, ORANGE, WIDTH, Illustration, in_style, letter, new_figure
 from campaign.scene import Scene
@@ -24,8 +26,14 @@ GROUND = "#f3ece0"
 MOST_LINES = 200
 """Of a mesh across the figure; finer ones would be a grey area."""
 
+SHARE = 0.85
+"""Of the width of the figure that the section takes."""
+
 TITLE = 80
 """Characters of a line above a panel."""
+
+LEGEND = 0.8
+"""Height in inches of the legend, for which there is room above all labels."""
 
 OVERHEAD, TALLEST = 0.75, 14.0
 """Height in inches of a panel's title and axis, and of the largest figure."""
@@ -40,13 +48,17 @@ def save(scene: Scene, realization: int, path: Path) -> None:
 
 def scene_section(scene: Scene, look: FirstLook, strengths: Strengths, realization: int) -> Illustration:
     """Draw the section of a scene, and below it the strengths of a realization."""
-    section = Section(look.surface, scene.numerics.cell, look.surface.width, SKY * look.surface.top)
+    section = Section(look.surface, scene.numerics.cell, look.surface.width, SKY * look.surface.top, scene.receptor)
+    scale = SHARE * WIDTH / section.right
+    placed = place_labels(_places(section), section.surface.height_at, scale, section.right)
+    sky = highest(placed, scale) + LEGEND / scale
+    section = replace(section, top=max(section.top, sky))
     fields = [BY_NAME[name] for name in strengths.names]
-    height = (1 + len(fields)) * (0.85 * WIDTH * section.panel_height + OVERHEAD)
+    height = (1 + len(fields)) * (SHARE * WIDTH * section.panel_height + OVERHEAD)
     figure, panels = new_figure(min(height, TALLEST), 1 + len(fields), sharex=True)
     _ground(panels[0], section, scene.numerics.cell)
     _circles(panels[0], look)
-    _toe(panels[0], look.surface)
+    write_labels(panels[0], placed, scale)
     for axes, row in zip(panels[1:], fields, strict=True):
         _field(axes, section, strengths, row)
     panels[-1].set_xlabel("x (m)")
@@ -77,7 +89,7 @@ def _circles(axes: Axes, look: FirstLook) -> None:
     _circle(axes, look.residual, ORANGE, 5.0, "residual strength")
     if axes.get_legend_handles_labels()[1]:
         heading = "critical circle and its factor of safety (Bishop)"
-        axes.legend(loc="best", title=heading, title_fontsize=9, alignment="left")
+        axes.legend(loc="upper right", title=heading, title_fontsize=9, alignment="left")
 
 
 def _circle(axes: Axes, circle: SlipCircle | None, colour: str, begin: float, strength: str) -> None:
@@ -87,10 +99,14 @@ def _circle(axes: Axes, circle: SlipCircle | None, colour: str, begin: float, st
         axes.plot(x, circle.elevation(x), color=colour, linestyle=(begin, (5, 5)), label=label)
 
 
-def _toe(axes: Axes, surface: Surface) -> None:
-    x, y = surface.toe
-    axes.plot(x, y, "v", color=BLACK, markersize=6, clip_on=False)
-    axes.annotate(f"toe, x = {x:.4g} m", (x, y), (6, 6), textcoords="offset points", fontsize=9)
+def _places(section: Section) -> list[Label]:
+    """Return labels of the toe and of the places asked about."""
+    near = {"toe": (section.surface.toe[0], BLACK)} | {each.name: (each.x[0], ORANGE) for each in section.receptors}
+    ground = section.surface.height_at(np.array([x for x, _ in near.values()]))
+    return [
+        Label(x, float(y), f"{name}, x = {x:.4g} m", colour, f"{name} at {x:.4g} m")
+        for (name, (x, colour)), y in zip(near.items(), ground, strict=True)
+    ]
 
 
 def _field(axes: Axes, section: Section, strengths: Strengths, row: SoilProperty) -> None:

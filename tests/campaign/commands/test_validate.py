@@ -12,7 +12,7 @@ def keep_threads(monkeypatch):
 
 
 def answer(capsys, *arguments):
-    code = cli.main(["validate", *arguments])
+    code = cli.main(["validate", *arguments, "--quick"])
     return code, capsys.readouterr()
 
 
@@ -46,6 +46,35 @@ def test_a_warning_shows_the_value_in_the_users_unit(capsys):
     code, printed = answer(capsys, "ma2023", "--set", "soil.cohesion.mean=25 MPa")
     assert code == 0
     assert 'Warning: --set soil.cohesion.mean is "25 MPa", but' in printed.out
+
+
+RECEPTORS = 'receptor=[{name="road", x="40 m"}, {name="house", x="60 m"}, {name="barn", x="55 m"}]'
+
+
+def tried(capsys, *overrides):
+    options = [f"--set={override}" for override in ("numerics.cell=2 m", *overrides)]
+    assert cli.main(["validate", "ma2023", *options]) == 0
+    return " ".join(capsys.readouterr().out.split())
+
+
+def test_the_slide_with_mean_strengths_says_whom_it_reaches(capsys):
+    printed = tried(capsys, RECEPTORS)
+    assert "comes to rest after 8.1 s; its front is 10.8 m beyond the toe, at x = 45.84 m." in printed
+    assert "It reaches road (x = 40 m), not house (x = 60 m) and barn (x = 55 m). Simulated in cells of 2 m." in printed
+    assert "Warning" not in printed
+
+
+def test_what_a_slide_has_shown_is_not_guessed(capsys):
+    """By experience a plain of 18 m is too short for a slope of 15 m; this slide has come 11 m far."""
+    short = ["geometry.slope.plain=18 m"]
+    assert "Warning" not in tried(capsys, *short)
+    printed = answer(capsys, "ma2023", f"--set={short[0]}")[1].out
+    assert "Warning: --set geometry.slope.plain" in printed
+
+
+def test_a_slope_that_stands_is_said_to_stand(capsys):
+    printed = tried(capsys, "soil.cohesion.mean=45 kPa")
+    assert "The slope stands: nothing moves farther than 0.0" in printed
 
 
 NOT_RUN = [

@@ -5,14 +5,15 @@ import pytest
 from campaign.scene import load_scene
 from campaign.scene.complaints import sentences
 from campaign.scene.first_look import look_at
-from campaign.scene.foresight import rounded_up, warnings
+from campaign.scene.foresight import expected_of_slides, rounded_up, warnings
 
 PROFILE = 'geometry={surface=[["0 m","19 m"],["20 m","19 m"],["35 m","4 m"],["45 m","4 m"]]}'
 
 
 def warned(*overrides, source="ma2023"):
     scene = load_scene(source, overrides)
-    return sentences(warnings(scene, look_at(scene)), scene)
+    look = look_at(scene)
+    return sentences([*warnings(scene, look), *expected_of_slides(scene, look)], scene)
 
 
 @pytest.mark.parametrize("source", ["ma2023", "ma2023-printed", "bui2008"])

@@ -1,0 +1,50 @@
+"""The slide with mean strengths in words, before a campaign."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from campaign.record import Status
+from campaign.scene import Scene
+from campaign.scene.sections import Receptor
+from campaign.simulation.trial import Trial
+
+
+def trial_text(scene: Scene, made: Trial | None) -> str:
+    """Say whether a slope of mean strengths slides, how far and how long, and which receptors the front reaches."""
+    if made is None:
+        return "A slide takes too long for a first look; the campaign computes the one with mean strengths first."
+    cells = f"Simulated in cells of {made.cell:g} m"
+    if made.cell > scene.numerics.cell:
+        cells += f" instead of {scene.numerics.cell:g} m, which may change the run-out by a fifth"
+    return f"{_outcome(made)} {cells}."
+
+
+def _outcome(made: Trial) -> str:
+    record, values = made.record, made.record.values
+    if record.status is Status.no_slide:
+        farthest = float(values["max_displacement"][-1])  # type: ignore[index]
+        return f"The slope stands: nothing moves farther than {farthest:.2g} m."
+    if not made.slides:
+        return f"The simulation fails: {record.reason}"
+    end = float(values["settle_time"])
+    how = f"comes to rest after {end:.2g} s" if end == end else "still moves at the end of the run"
+    where = f"its front is {made.runout:.3g} m beyond the toe, at x = {made.front:.4g} m"
+    return f"The slope slides and {how}; {where}.{_receptors(made)}"
+
+
+def _receptors(made: Trial) -> str:
+    asked = made.ground.scene.receptor
+    if not asked:
+        return ""
+    reached = np.asarray(made.record.values["front_reaches"]) == 1
+    there = [each for each, hit in zip(asked, reached, strict=True) if hit]
+    if not there:
+        return f" It does not reach {_listed(asked)}."
+    others = [each for each in asked if each not in there]
+    return f" It reaches {_listed(there)}{f', not {_listed(others)}' if others else ''}."
+
+
+def _listed(receptors: Sequence[Receptor]) -> str:
+    names = [f"{each.name} (x = {each.x[0]:g} m)" for each in receptors]
+    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))

@@ -1,0 +1,110 @@
+"""The slide with mean strengths before a campaign, in cells so large that it takes seconds."""
+
+import time
+from math import ceil
+from typing import NamedTuple
+
+from campaign.record import SLID, Record, Status
+from campaign.scene import Scene
+from campaign.scene.complaints import Complaint
+from campaign.scene.cost import realization_seconds
+from campaign.scene.first_look import height_above_toe
+from campaign.scene.foresight import longer_plain
+from campaign.scene.ground_surface import surface_of
+from campaign.scene.rules.numerics import LEAST_CELLS_OF_HEIGHT
+from campaign.seeds import BASELINE
+from campaign.simulation.contract import Interrupted
+from campaign.simulation.detachment import CAME_APART
+from campaign.simulation.ground import Ground, prepare
+
+AFFORDABLE = 5.0
+"""Seconds that a trial may take by estimate; it is given up after `PATIENCE` times as many."""
+
+PATIENCE = 6.0
+
+SCATTER = 1.5
+"""How far single slides come, in run-outs of the one with mean strengths; those of `ma2023` come up to 1.4 times."""
+
+
+class Trial(NamedTuple):
+    """A deterministic run that is not part of a campaign.
+
+    Attributes
+    ----------
+    ground : Ground
+        With the cells of the trial.
+    record : Record
+    """
+
+    ground: Ground
+    record: Record
+
+    @property
+    def cell(self) -> float:
+        """Size of the cells in m."""
+        return self.ground.scene.numerics.cell
+
+    @property
+    def slides(self) -> bool:
+        """Whether it slid, whatever stopped it."""
+        return self.record.status in SLID
+
+    @property
+    def front(self) -> float:
+        """Place in m where the front came to rest; NaN without a slide."""
+        return float(self.record.values["front_position"][-1])  # type: ignore[index]
+
+    @property
+    def runout(self) -> float:
+        """Distance in m from the toe to the front, zero behind it; NaN without a slide."""
+        return max(0.0, self.front - self.ground.toe_x)
+
+
+def with_affordable_cells(scene: Scene) -> Scene | None:
+    """Return the scene with the smallest whole multiple of its cell that is affordable; None if the slope is too low.
+
+    The mean strengths need no fine grid of the random field.
+    """
+    times = max(1, ceil((realization_seconds(scene) / AFFORDABLE) ** (1 / 3)))
+    cell = times * scene.numerics.cell
+    if times > 1 and cell * LEAST_CELLS_OF_HEIGHT > height_above_toe(surface_of(scene.geometry)):
+        return None
+    numerics = scene.numerics.model_copy(update={"cell": cell})
+    field = scene.field.model_copy(update={"sampler": "auto", "resolution": max(cell, scene.field.resolution or 0.0)})
+    return scene.model_copy(update={"numerics": numerics, "field": field})
+
+
+def trial(scene: Scene) -> Trial | None:
+    """Run the slide with mean strengths; None where that takes too long.
+
+    Raises
+    ------
+    RefusalError
+        If the ground does not come to rest under its own weight.
+    """
+    coarse = with_affordable_cells(scene)
+    if coarse is None:
+        return None
+    ground = prepare(coarse)
+    end = time.monotonic() + PATIENCE * AFFORDABLE
+    try:
+        return Trial(ground, ground.simulate(BASELINE, interrupt=lambda: time.monotonic() > end))
+    except Interrupted:
+        return None
+
+
+def foreseen(scene: Scene, made: Trial) -> list[Complaint]:
+    """Return what a trial that slid lets expect of realizations."""
+    surface, needed = made.ground.model.surface, SCATTER * made.runout
+    if made.record.status is Status.reached_wall or surface.width - surface.toe_x >= needed:
+        return []
+    text = (
+        f"the slide with mean strengths comes {made.runout:.3g} m beyond the toe, others come up to {SCATTER:g} times "
+        f"as far, and the wall {surface.width - surface.toe_x:g} m beyond the toe will hold them back"
+    )
+    return [longer_plain(scene, surface, needed, text)]
+
+
+def remarks(made: Trial) -> str:
+    """Return sentences on what was in the way of the slide; "" if nothing was."""
+    return made.record.reason.replace(CAME_APART, "").strip()
