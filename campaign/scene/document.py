@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from campaign.errors import SceneError
+from campaign.scene.alternatives import replaced_by
 
 Location = tuple[str | int, ...]
 
@@ -210,6 +211,7 @@ def _apply(override: str, tables: dict[str, Any]) -> str | None:
         tables = tables.setdefault(section, {})
         if not isinstance(tables, dict):
             return f"--set {'.'.join(path)}: {'.'.join(path[:depth])} is a value, not a section; set it itself."
+    tables.pop(replaced_by(path), None)
     tables[last] = _override_value(override.partition("=")[2].strip())
     return None
 

@@ -34,6 +34,7 @@ class Input(NamedTuple):
 
 INPUTS = (
     Input("soil.softening.rate", "softening rate"),
+    Input("soil.softening.slip_to_residual", "slip to residual strength"),
     Input("soil.softening.reference_cell", "reference cell of softening"),
     Input("soil.softening.internal_length", "internal length of softening"),
     *(Input(row.mean_key, f"mean {row.long_name}", row.cov_key) for row in PROPERTIES),

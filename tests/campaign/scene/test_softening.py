@@ -44,8 +44,16 @@ def test_a_slip_to_residual_is_a_rate_over_the_internal_length(tmp_path: Path, l
 
 
 def test_slip_or_rate_is_given_and_not_both(tmp_path: Path) -> None:
-    assert "leave out one of the two" in complaint('soil.softening.slip_to_residual="0.3 m"')
+    both = written(tmp_path, (RATE, 'slip_to_residual = "30 cm"\nrate = 0.189 '))
+    assert "leave out one of the two" in complaint(source=both)
     assert 'or slip_to_residual = "0.3 m"' in complaint(source=written(tmp_path, (RATE, "# ")))
+
+
+def test_an_override_of_one_replaces_the_other() -> None:
+    by_slip = load_scene("ma2023", ["soil.softening.slip_to_residual=0.3 m"]).soil.softening
+    assert (by_slip.rate, by_slip.slip_to_residual) == (None, 0.3)
+    again = load_scene("ma2023", ["soil.softening.slip_to_residual=0.3 m", "soil.softening.rate=0.2"]).soil.softening
+    assert (again.rate, again.slip_to_residual) == (0.2, None)
 
 
 def test_slip_needs_a_band_of_known_thickness(tmp_path: Path) -> None:
