@@ -13,6 +13,14 @@ from campaign.terminal import clock, duration, say
 PERIOD = 15.0
 """Seconds between lines when nothing else calls for one."""
 
+Ahead = Callable[[Tally, float], float]
+"""Returns the seconds that other runs will take afterwards; the number is that of realizations a second."""
+
+
+def nothing_ahead(_tally: Tally, _rate: float) -> float:
+    """Nothing follows."""
+    return 0.0
+
 
 class Progress:
     """Prints a line at every checkpoint and now and then between them.
@@ -21,9 +29,12 @@ class Progress:
     ----------
     tally
         The account of the campaign, holding what earlier starts have finished.
+    ahead
+        How long the runs that follow will take.
     """
 
-    def __init__(self, tally: Tally, speak: Callable[[str], None] = say) -> None:
+    def __init__(self, tally: Tally, ahead: Ahead = nothing_ahead, speak: Callable[[str], None] = say) -> None:
+        self._ahead = ahead
         self._speak = speak
         self._begin = self._last = time.monotonic()
         self._before = tally.done
@@ -41,7 +52,7 @@ class Progress:
         """Return the state of the campaign with the time since its start and the time left."""
         elapsed = time.monotonic() - self._begin
         rate = (tally.done - self._before) / elapsed if elapsed > 0 else 0.0
-        return f"[{clock(elapsed)}] {state_line(tally)}{_time_left(tally, rate)}"
+        return f"[{clock(elapsed)}] {state_line(tally)}{_time_left(tally, rate, self._ahead)}"
 
 
 def state_line(tally: Tally) -> str:
@@ -73,7 +84,7 @@ def _std(std: Interval) -> str:
     return f"{std.estimate:.2f} m ({std.lower:.2f} to {std.upper:.2f})" if std.is_known else "not enough yet"
 
 
-def _time_left(tally: Tally, rate: float) -> str:
+def _time_left(tally: Tally, rate: float, ahead: Ahead) -> str:
     needed, forecast = tally.maximum, ""
     latest = tally.latest()
     if tally.prefix >= (tally.rule.minimum if latest.outcomes.slides else tally.rule.block):
@@ -82,4 +93,7 @@ def _time_left(tally: Tally, rate: float) -> str:
         forecast = f" | about {predicted:.0f} needed" if math.isfinite(predicted) else ""
     if rate <= 0 or needed <= tally.done:
         return forecast
-    return f"{forecast or ' |'}{',' if forecast else ''} {duration((needed - tally.done) / rate)} left"
+    after = ahead(tally, rate)
+    whole = duration((needed - tally.done) / rate + after)
+    parts = f", {duration(after)} of it for mesh, release and inputs" if after else ""
+    return f"{forecast or ' |'}{',' if forecast else ''} {whole} left{parts}"

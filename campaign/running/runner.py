@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Callable
 from contextlib import nullcontext
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,11 +15,12 @@ from campaign.running.campaign_directory import CampaignDirectory, WriteReport, 
 from campaign.running.crew import Alone, Crew, Order
 from campaign.running.dispatcher import Dispatcher
 from campaign.running.level import Level
-from campaign.running.progress import Progress
+from campaign.running.progress import Progress, nothing_ahead
 from campaign.running.side_run import Means
 from campaign.running.stop_request import StopRequest, listening
 from campaign.running.walltime import job_end
 from campaign.running.worker import LAST_CALL
+from campaign.running.workload import seconds_beyond_sampling
 from campaign.scene import Scene, load_scene
 from campaign.simulation.contract import Prepare, PreparedGround
 from campaign.statistics.tally import Tally
@@ -110,7 +112,9 @@ def conduct(
     def hand_out(level: Level, ground: PreparedGround, tally: Tally) -> str:
         wanted = level.scene
         order = Order(ground, level.directory, wanted.digest(), wanted.campaign.realization_timeout, end)
-        dispatcher, progress = Dispatcher(tally, _obstacle(stop, end), level.tidier(tally)), Progress(tally)
+        dispatcher = Dispatcher(tally, _obstacle(stop, end), level.tidier(tally))
+        ahead = partial(seconds_beyond_sampling, wanted, crew.size) if level is directory.level else nothing_ahead
+        progress = Progress(tally, ahead)
         crew.compute(order, dispatcher, lambda: dispatcher.observe(progress.tick))
         return dispatcher.stopped
 

@@ -6,6 +6,8 @@ from tallies import filled, summary_of
 
 from campaign.record import Status
 from campaign.running.progress import Progress, state_line
+from campaign.running.workload import seconds_beyond_sampling
+from campaign.scene import load_scene
 from campaign.seeds import BASELINE
 
 
@@ -31,3 +33,30 @@ def test_after_the_end_only_what_is_in_the_result_is_counted(beyond):
     more = f" (and {beyond} beyond the end)" if beyond else ""
     assert state_line(tally).startswith(f"70 realizations{more}, 0 failed | 70 of 70 slid")
     assert np.isclose(tally.latest().mean.estimate, tally.history().mean[-1])
+
+
+def test_the_time_left_is_that_of_all_runs(monkeypatch):
+    """12 of at most 200 in 6 s, so 94 s for the others; what follows is said to take 60 s."""
+    times = iter([0.0, 6.0])
+    monkeypatch.setattr("campaign.running.progress.time.monotonic", lambda: next(times))
+    progress = Progress(filled([]), lambda _tally, rate: 30.0 * rate)
+    line = progress.line(filled([BASELINE, *range(12)]))
+    assert line.endswith("| 3 min left, 60 s of it for mesh, release and inputs")
+
+
+@pytest.mark.parametrize(
+    ("ranks", "seconds"),
+    [(1, 8 * 5 + 1 + 8 * 4), (2, 8 * 3 + 1 + 8 * 2), (16, 8 + 1 + 8)],
+)
+def test_what_follows_is_counted_in_rounds_of_all_ranks(ranks, seconds):
+    """A realization takes 1 s. Half the cell: 4 realizations and the deterministic one, 8 s each. 8 inputs, 4 each."""
+    tally = filled([BASELINE, *range(30)])
+    assert seconds_beyond_sampling(load_scene("ma2023"), ranks, tally, float(ranks)) == seconds
+
+
+def test_what_does_not_slide_is_not_repeated():
+    """But for the deterministic run with the other release."""
+    tally = filled([])
+    for k in (BASELINE, *range(20)):
+        tally.add(summary_of(k, 0.0, Status.no_slide))
+    assert seconds_beyond_sampling(load_scene("ma2023"), 1, tally, 0.5) == 2.0
