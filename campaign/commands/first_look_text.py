@@ -15,7 +15,7 @@ from campaign.scene.cost import (
     time_step,
     with_more_of_an_input,
 )
-from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, FirstLook
+from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, TYPICAL_SLIDE, FirstLook
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.outlook import outlook
 from campaign.scene.sections import Softening
@@ -99,12 +99,12 @@ def _softening(softening: Softening) -> str:
 
 
 def _time(scene: Scene, look: FirstLook) -> str:
-    first, last = SHORTEST_SLIDE * look.time_scale, LONGEST_SLIDE * look.time_scale
+    first, middle, last = (each * look.time_scale for each in (SHORTEST_SLIDE, TYPICAL_SLIDE, LONGEST_SLIDE))
     numerics = scene.numerics
     ramp = f" Gravity rises for {numerics.ramp_time:g} s before." if numerics.gravity == "ramp" else ""
     return (
-        f"A slide comes to rest after 5 to 8 sqrt(H / g), here {first:.2g} to {last:.2g} s.{ramp} The run ends at "
-        f"{numerics.end_time:g} s."
+        f"Comparable slides come to rest after {first:.2g} to {last:.2g} s, half of them before {middle:.2g} s.{ramp} "
+        f"The run ends at {numerics.end_time:g} s."
     )
 
 

@@ -1,6 +1,7 @@
 """The slide with mean strengths in words, before a campaign."""
 
 from collections.abc import Sequence
+from math import isfinite
 
 import numpy as np
 
@@ -21,14 +22,13 @@ def trial_text(scene: Scene, made: Trial | None) -> str:
 
 
 def _outcome(made: Trial) -> str:
-    record, values = made.record, made.record.values
+    record = made.record
     if record.status is Status.no_slide:
-        farthest = float(values["max_displacement"][-1])  # type: ignore[index]
+        farthest = float(record.values["max_displacement"][-1])  # type: ignore[index]
         return f"The slope stands: nothing moves farther than {farthest:.2g} m."
     if not made.slides:
         return f"The simulation fails: {record.reason}"
-    end = float(values["settle_time"])
-    how = f"comes to rest after {end:.2g} s" if end == end else "still moves at the end of the run"
+    how = f"comes to rest after {made.rest:.2g} s" if isfinite(made.rest) else "still moves at the end of the run"
     where = f"its front is {made.runout:.3g} m beyond the toe, at x = {made.front:.4g} m"
     return f"The slope slides and {how}; {where}.{_receptors(made)}"
 

@@ -10,6 +10,7 @@ from campaign.terminal import say
 if TYPE_CHECKING:
     from campaign.scene import Scene
     from campaign.scene.complaints import Complaint
+    from campaign.scene.first_look import FirstLook
 
 HELP = "find every mistake in a scene; toe, factor of safety, what to expect, a trial slide, cost and memory"
 
@@ -42,7 +43,7 @@ def carry_out(options: argparse.Namespace) -> ExitCode:
     worth_saying = warnings(scene, look)
     if complaint := perhaps_too_large(size):
         worth_saying.append(complaint)
-    seen = None if options.quick else _trial(scene)
+    seen = None if options.quick else _trial(scene, look)
     worth_saying += expected_of_slides(scene, look) if seen is None else seen.complaints
     told = [*sentences(worth_saying, scene), *([seen.remarks] if seen and seen.remarks else [])]
     for sentence in told:
@@ -57,12 +58,12 @@ class Seen(NamedTuple):
     remarks: str
 
 
-def _trial(scene: "Scene") -> Seen | None:
+def _trial(scene: "Scene", look: "FirstLook") -> Seen | None:
     """Run the slide with mean strengths and say what it did; None if it tells nothing of slides."""
     from campaign.commands.first_look_text import paragraph
     from campaign.commands.trial_text import trial_text
     from campaign.simulation.trial import foreseen, remarks, trial
 
-    made = trial(scene)
+    made = trial(scene, look)
     say(paragraph("mean strengths", trial_text(scene, made)))
     return Seen(foreseen(scene, made), remarks(made)) if made is not None and made.slides else None

@@ -17,6 +17,20 @@ def known_rate(softening: Softening) -> float | None:
     return rate_of(softening.slip_to_residual, softening.internal_length, softening.law == "linear")
 
 
+def share_left(softening: Softening, slip: float, is_locked: bool) -> float:
+    """Return the share of the drop from peak to residual strength that is left after a slip in m.
+
+    Local softening depends on bands: those along the grid, or those that locking thickens.
+    """
+    rate, is_linear = known_rate(softening), softening.law == "linear"
+    if softening.law == "none" or not rate:
+        return 1.0
+    cells = LOCKED_BAND_THICKNESS if is_locked else BAND_THICKNESS
+    thickness = softening.internal_length or cells * (softening.reference_cell or 0.0)
+    slips = slip / slip_of(rate, thickness, is_linear)
+    return float(max(0.0, 1.0 - slips) if is_linear else SHARE_LEFT**slips)
+
+
 def softening_words(softening: Softening) -> str:
     """Say when a band is residual, and at which rate: "95 % of the drop is lost after 0.30 m of slip (rate 21.6)"."""
     rate, is_linear = known_rate(softening), softening.law == "linear"

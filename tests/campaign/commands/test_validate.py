@@ -25,7 +25,7 @@ def test_a_scene_is_looked_at(capsys):
         "factor of safety 0.73 with the mean peak strength on a circle from x = 14.1 m to 35 m",
         "0.37 with the residual strength",
         "Nearly every realization slides.",
-        "here 6.2 to 9.9 s. The run ends at 10 s.",
+        "after 6.7 to 22 s, half of them before 10 s. The run ends at 10 s.",
         "300 x 76 points, 0.25 m apart",
         "core-hours for all 1,000, with 4 repeated",
         "a rank; the results take",

@@ -59,6 +59,26 @@ def test_negative_cross_correlation_narrows_the_scatter():
     assert spreads == sorted(spreads)
 
 
+def test_friction_alone_brakes_a_slide_that_does_not_soften_as_it_does_a_block():
+    """The column of bars stands on level ground: tan(19.8 deg), and hardly any cohesion."""
+    look = look_at(load_scene("bui2008"))
+    assert look.friction == pytest.approx(np.tan(np.radians(19.8)), rel=1e-3)
+    assert look.time_scale == pytest.approx(np.sqrt(0.1 / (9.81 * look.friction)))
+
+
+def test_residual_strength_brakes_less_and_falling_ground_still_less():
+    """2 kPa and 5 degrees after any slip: 0.087 + 2 / (20 * 0.3 * 15) = 0.110; ground that falls by 1 in 30 less."""
+    weak = ["soil.softening.slip_to_residual=1 mm", "soil.cohesion.residual=2 kPa"]
+    falling = 'geometry={surface=[["0 m","22 m"],["20 m","22 m"],["35 m","7 m"],["95 m","5 m"]]}'
+    assert look_at(load_scene("ma2023", weak)).friction == pytest.approx(0.1097, abs=1e-4)
+    assert look_at(load_scene("ma2023", [*weak, falling])).friction == pytest.approx(0.1097 - 1 / 30, abs=1e-4)
+
+
+def test_even_ground_that_falls_more_steeply_than_it_brakes_has_an_end():
+    fan = 'geometry={surface=[["0 m","32 m"],["20 m","32 m"],["35 m","17 m"],["95 m","2 m"]], toe="35 m"}'
+    assert look_at(load_scene("ma2023", [fan, "soil.softening.slip_to_residual=1 mm"])).friction == 0.05
+
+
 def test_soil_that_does_not_soften_has_no_residual_factor():
     assert look_at(load_scene("bui2008")).residual is None
 
@@ -69,7 +89,7 @@ class Circle:
 
 
 def look(peak, residual, spread=0.05):
-    return FirstLook(slope_surface(15.0, 0.8, 20.0, 40.0, 4.0), 15.0, Circle(peak), Circle(residual), spread)
+    return FirstLook(slope_surface(15.0, 0.8, 20.0, 40.0, 4.0), 15.0, Circle(peak), Circle(residual), spread, 0.3)
 
 
 @pytest.mark.parametrize(
