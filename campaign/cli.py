@@ -10,6 +10,7 @@ from campaign.commands.completion import HELP, SHELLS, PrintCompletion
 from campaign.commands.version import PrintVersion
 from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
+from campaign.terminal import let_go
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
@@ -28,14 +29,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out one command and return its exit code; without arguments that is `run ma2023`."""
     _pin_threads()
     given = sys.argv[1:] if arguments is None else list(arguments)
-    options = parser().parse_args(given or DEFAULT)
+    try:
+        return _carry_out(parser().parse_args(given or DEFAULT))
+    except KeyboardInterrupt:  # as long as a campaign does not listen to it, which then ends in order
+        print("Interrupted.", file=sys.stderr)
+        return ExitCode.INTERRUPTED
+    finally:
+        let_go()
+
+
+def _carry_out(options: argparse.Namespace) -> ExitCode:
     try:
         code: ExitCode = options.carry_out(options)
     except CampaignError as refusal:
         print(refusal, file=sys.stderr)
         return ExitCode.REFUSED
-    except BrokenPipeError:  # whoever read the output, such as `head`, has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except BrokenPipeError:  # whoever watched has seen enough
         return ExitCode.DONE
     return code
 

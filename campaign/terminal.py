@@ -1,5 +1,6 @@
 """What the terminal is told: whole lines, and lengths of time as a person would write them."""
 
+import os
 import sys
 from datetime import timedelta
 
@@ -33,10 +34,35 @@ def counted(number: int, noun: str) -> str:
 
 
 def refresh(text: str) -> None:
-    """Print text as the one thing on the screen; below the last one where the output is not a terminal."""
-    say(f"{CLEAR if sys.stdout.isatty() else ''}{text}")
+    """Print text as the one thing on the screen; below the last one where the output is not a terminal.
+
+    Raises
+    ------
+    OSError
+        When nobody reads it, so that it need not be refreshed any more.
+    """
+    print(f"{CLEAR if sys.stdout.isatty() else ''}{text}\n", end="", flush=True)
 
 
-def say(text: str) -> None:
-    """Print a whole line at once, since ranks share the output."""
-    print(f"{text}\n", end="", flush=True)
+def say(text: object) -> None:
+    """Print a whole line at once, since ranks share the output; nobody needs to hear it.
+
+    Where the output is a closed pipe or a full disk this and all that follows is lost, and no work with it.
+    """
+    try:
+        print(f"{text}\n", end="", flush=True)
+    except OSError:
+        _hush()
+
+
+def let_go() -> None:
+    """Write what is left of the output, at the end of the program, whether or not somebody still reads it."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        _hush()
+
+
+def _hush() -> None:
+    """Send the output to nowhere from now on, what has not been written of it included."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

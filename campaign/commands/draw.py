@@ -5,6 +5,7 @@ from pathlib import Path
 
 from campaign.commands.scene_options import add_scene, read_scene
 from campaign.exit_codes import ExitCode
+from campaign.terminal import say
 
 HELP = "the section with toe, mesh, receptors and critical circle, and a realization's field"
 
@@ -42,5 +43,5 @@ def carry_out(options: argparse.Namespace) -> ExitCode:
         save(scene, options.realization, path)
     except OSError as error:
         raise RefusalError(f"{path} cannot be written ({error}); give another --out.") from error
-    print(path)
+    say(path)
     return ExitCode.DONE

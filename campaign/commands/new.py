@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from campaign.exit_codes import ExitCode
+from campaign.terminal import say
 
 HELP = "a commented scene file to start from"
 
@@ -54,7 +55,7 @@ def carry_out(options: argparse.Namespace) -> ExitCode:
         raise RefusalError(f"{file} exists and is left as it is; give another name.") from None
     except (OSError, ValueError) as error:
         raise RefusalError(f"{file} cannot be written ({error}); give another place.") from error
-    print(f"{file}: the slope of {TEMPLATE}, to be changed. Then: campaign validate {file}")
+    say(f"{file}: the slope of {TEMPLATE}, to be changed. Then: campaign validate {file}")
     return ExitCode.DONE
 
 

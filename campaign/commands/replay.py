@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from campaign.exit_codes import ExitCode
+from campaign.terminal import say
 
 HELP = "one realization again, with full particle output"
 
@@ -21,5 +22,5 @@ def carry_out(options: argparse.Namespace) -> ExitCode:
     manifest.read(options.directory)  # a directory without a campaign is refused before the solver is compiled
     from campaign.results.replay import replay
 
-    print(replay(options.directory, options.realization))
+    say(replay(options.directory, options.realization))
     return ExitCode.DONE

@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from campaign.exit_codes import ExitCode
+from campaign.terminal import say
 
 HELP = "figures and a page from results.nc"
 
@@ -17,5 +18,5 @@ def carry_out(options: argparse.Namespace) -> ExitCode:
     """Write the page and print where it is."""
     from campaign.report.page import write_report
 
-    print(write_report(options.directory))
+    say(write_report(options.directory))
     return ExitCode.DONE

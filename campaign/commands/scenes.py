@@ -3,6 +3,7 @@
 import argparse
 
 from campaign.exit_codes import ExitCode
+from campaign.terminal import say
 
 HELP = "list the built-in scenes"
 
@@ -16,5 +17,5 @@ def carry_out(_options: argparse.Namespace) -> ExitCode:
     from campaign.scene import builtin_scenes
 
     for name, title in builtin_scenes().items():
-        print(f"{name:20}{title}")
+        say(f"{name:20}{title}")
     return ExitCode.DONE

@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from campaign.exit_codes import ExitCode
+from campaign.terminal import say
 
 HELP = "how a campaign stands, while it runs or after"
 
@@ -21,5 +22,5 @@ def carry_out(options: argparse.Namespace) -> ExitCode:
     if options.watch:
         watch(options.directory)
     else:
-        print(status(options.directory))
+        say(status(options.directory))
     return ExitCode.DONE

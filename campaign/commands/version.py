@@ -2,13 +2,15 @@
 
 import argparse
 
+from campaign.terminal import say
+
 
 class PrintVersion(argparse.Action):
     """Prints the versions, which takes half a second to find out, only where they are asked for."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         """Print them and end."""
-        print(version())
+        say(version())
         parser.exit()
 
 

@@ -22,6 +22,8 @@ from campaign.simulation.quantities import QUANTITIES
 from campaign.simulation.realization import never, nothing, simulate
 from campaign.simulation.scene_sampler import strength_sampler
 from campaign.simulation.solver_model import Array, column_edges, model_of, output_times
+from campaign.terminal import say
+from solver.compile_cache import telling_of_compilation
 from solver.filling import ground_of
 from solver.in_situ import NotSettledError, in_situ_state
 from solver.march import March
@@ -32,6 +34,9 @@ from solver.surface import Surface
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+COMPILING = "Compiling the solver for this kind of scene, once; it takes about half a minute."
 
 
 @dataclass(frozen=True)
@@ -219,7 +224,8 @@ def prepare(scene: Scene, directory: Path | None = None) -> Ground:
     model = model_of(scene)
     lattice = ground_of(model)
     is_ramp = scene.numerics.gravity == "ramp"
-    settled = _loaded(model, from_nothing=is_ramp)
+    with telling_of_compilation(lambda: say(COMPILING)):
+        settled = _loaded(model, from_nothing=is_ramp)
     in_situ = copy_particles(lattice) if is_ramp else settled
     return Ground(scene, model, lattice, in_situ, settled, _sampler(scene, model.surface, directory))
 

@@ -1,5 +1,6 @@
 """The command line: what it understands, what it answers, and its exit codes."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -9,6 +10,8 @@ import pytest
 from campaign import cli
 from campaign.commands import run
 from campaign.commands.scene_options import overrides
+
+PROGRAM = "import sys; from campaign.cli import main; sys.exit(main())"
 
 
 @pytest.fixture(autouse=True)
@@ -28,8 +31,7 @@ def test_the_estimate_is_near_the_papers_number_of_particles():
 def test_an_unknown_key_is_a_sentence_and_not_a_traceback(command, tmp_path):
     arguments = [command, "ma2023", "--set", 'soil.cohesionn.mean="20 kPa"']
     arguments += ["--out", str(tmp_path / "x")] if command == "run" else []
-    program = "import sys; from campaign.cli import main; sys.exit(main())"
-    result = subprocess.run([sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False)
+    result = subprocess.run([sys.executable, "-c", PROGRAM, *arguments], capture_output=True, text=True, check=False)
     assert result.returncode == 2
     assert "cohesionn" in result.stderr
     assert "Traceback" not in result.stderr
@@ -98,8 +100,33 @@ def test_neither_mpi_nor_numpy_is_needed_to_read_the_command_line():
     assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
 
 
-def test_a_reader_who_has_seen_enough_ends_a_command_quietly():
-    program = "import sys; from campaign.cli import main; sys.exit(main(['scenes']))"
-    command = f'{sys.executable} -u -c "{program}" | true; exit ${{PIPESTATUS[0]}}'
-    result = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
-    assert (result.returncode, result.stderr) == (0, "")
+def without_reader(program, *arguments):
+    """Run a Python program whose output nobody reads; return its exit code and what it says of errors."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    command = [sys.executable, "-c", program, *arguments]
+    result = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(writer)
+    return result.returncode, result.stderr
+
+
+@pytest.mark.parametrize("arguments", [["scenes"], ["--help"], ["validate", "ma2023", "--quick"]])
+def test_a_reader_who_has_seen_enough_ends_a_command_quietly(arguments):
+    assert without_reader(PROGRAM, *arguments) == (0, "")
+
+
+def test_without_a_reader_a_campaign_goes_on_to_its_own_end():
+    work = (
+        "from campaign.terminal import say, let_go; [say('a line') for _ in range(9)]; let_go(); raise SystemExit(75)"
+    )
+    assert without_reader(work) == (75, "")
+
+
+@pytest.mark.parametrize("moment", ["parser", "_carry_out"])
+def test_an_interrupt_before_anything_is_begun_is_a_word(moment, monkeypatch, capsys):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(cli, moment, interrupted)
+    assert cli.main(["scenes"]) == 130
+    assert capsys.readouterr().err == "Interrupted.\n"

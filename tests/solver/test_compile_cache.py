@@ -8,7 +8,7 @@ import numba
 import pytest
 
 import solver.step  # noqa: F401  -- whatever it sets must not stay
-from solver.compile_cache import compile_cache, private_directory
+from solver.compile_cache import compile_cache, private_directory, telling_of_compilation
 
 
 @pytest.fixture(autouse=True)
@@ -54,3 +54,15 @@ def test_numbas_own_setting_stays():
     with compile_cache():
         assert Path(numba.config.CACHE_DIR).is_absolute()
     assert numba.config.CACHE_DIR == before == os.environ.get("NUMBA_CACHE_DIR", "")
+
+
+def test_compilation_is_told_once_and_only_where_there_is_some():
+    """Two functions are compiled, one of them with two types; what is compiled already is silent."""
+    told = []
+    one, other = numba.njit(lambda x: x + 1), numba.njit(lambda x: x * 2)
+    with telling_of_compilation(lambda: told.append("compiling")):
+        assert (one(1), one(0.5), other(2)) == (2, 1.5, 4)
+    assert told == ["compiling"]
+    with telling_of_compilation(lambda: told.append("again")):
+        assert one(1) == 2
+    assert told == ["compiling"]
