@@ -14,6 +14,7 @@ from campaign.results.results import Results, read_results
 from campaign.scene.comparison import differing_values
 from campaign.statistics.intervals import Sample
 from campaign.statistics.receptors import REACHED
+from campaign.terminal import counted
 
 
 class Change(NamedTuple):
@@ -104,19 +105,19 @@ def compare(directories: Sequence[Path]) -> Comparison:
     if twice := [str(given) for given, place in zip(directories, places, strict=True) if places.count(place) > 1]:
         raise RefusalError(f"{twice[0]} is given more than once; give each campaign once.")
     scenarios = tuple(read_results(directory) for directory in directories)
-    counted = [set(np.flatnonzero(each.has_status(USABLE)).tolist()) for each in scenarios]
-    common = sorted(set.intersection(*counted))
+    usable = [set(np.flatnonzero(each.has_status(USABLE)).tolist()) for each in scenarios]
+    common = sorted(set.intersection(*usable))
     if not common:
         raise RefusalError(
             "There is no realization that has a result in all of these campaigns, so there is nothing to compare; "
-            f"{_counts(directories, counted)}. Continue them with campaign run DIR."
+            f"{_counts(directories, usable)}. Continue them with campaign run DIR."
         )
     return Comparison(_names(directories), scenarios, np.array(common))
 
 
-def _counts(directories: Sequence[Path], counted: list[set[int]]) -> str:
-    pairs = zip(directories, counted, strict=True)
-    return ", ".join(f"{directory} has {len(ids)} realizations with a result" for directory, ids in pairs)
+def _counts(directories: Sequence[Path], usable: list[set[int]]) -> str:
+    pairs = zip(directories, usable, strict=True)
+    return ", ".join(f"{directory} has {counted(len(ids), 'realization')} with a result" for directory, ids in pairs)
 
 
 def _names(directories: Sequence[Path]) -> tuple[str, ...]:

@@ -6,6 +6,7 @@ from textwrap import fill
 from campaign.comparison.measures import Measure
 from campaign.comparison.scenarios import Comparison
 from campaign.statistics.paired import Difference
+from campaign.terminal import counted
 
 WIDTH = 110
 
@@ -28,7 +29,7 @@ def _table(given: Comparison, found: Sequence[Measure], other: int) -> list[str]
     widths = [max(len(row[column]) for row in rows) for column in range(len(titles))]
     over = "standard error".rjust(sum(widths) + 2 * (len(widths) - 1))
     return [
-        f"{name} against {first}, {len(given.ids)} realizations of both",
+        f"{name} against {first}, {counted(len(given.ids), 'realization')} of both",
         *(told or ["  The scenes do not differ."]),
         over,
         *(_line(row, widths) for row in rows),

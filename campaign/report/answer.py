@@ -12,6 +12,7 @@ from campaign.statistics.intervals import Interval
 from campaign.statistics.stopping import RARE
 from campaign.statistics.total import has_mesh_error
 from campaign.statistics.wording import chance, chance_of_slide, chances, metres
+from campaign.terminal import counted
 
 OUTCOMES = {
     Status.slid: "slid and came to rest",
@@ -37,7 +38,7 @@ def answer(results: Results) -> str:
     """Return the result in a paragraph, the number that was asked for first."""
     outcomes = results.outcomes
     if outcomes.usable == 0:
-        return f"No answer: all {results.realizations} realizations failed."
+        return f"No answer: {counted(results.realizations, 'realization')}, and none with a result."
     of_slides = [_runout(results), _walls(results), _spread(results), _farthest(results)] if outcomes.slides else []
     return " ".join(filter(None, [_chance(results), *of_slides, _comparison(results), _beyond(results)]))
 
@@ -45,7 +46,10 @@ def answer(results: Results) -> str:
 def reasons_for_doubt(results: Results) -> list[str]:
     """Return sentences on why the run-outs or their intervals may not hold."""
     unsettled, n = results.by_status()[Status.not_settled], results.outcomes.slides
-    censored = f"{unsettled} of the {n} run-outs are lower bounds: those slides were still moving at numerics.end_time."
+    censored = (
+        f"{unsettled} of {counted(n, 'run-out')} {'is a lower bound' if unsettled == 1 else 'are lower bounds'}: still "
+        "moving when the run ended (numerics.end_time)."
+    )
     volumes, mass_runouts = results.of_slides("detached_volume"), results.of_slides(FINAL_RUNOUT["mass"])
     apart = detached_fronts(volumes, mass_runouts, results.scene.slide.front_area, results.front)
     return [*doubts(results.runouts), *apart, *([censored] if unsettled else [])]
@@ -64,15 +68,16 @@ def outcomes(results: Results) -> list[Outcome]:
 def _chance(results: Results) -> str:
     """Say how probable a slide is."""
     probability, given = estimates.slide_probability(results), results.outcomes
-    counted = f"{given.slides} of {given.usable} realizations" + (" with a result" if results.has_failed.any() else "")
+    with_result = " with a result" if results.has_failed.any() else ""
+    seen = f"{given.slides} of {counted(given.usable, 'realization')}{with_result}"
     within, confidence = chance_of_slide(probability), f"{100 * results.confidence:g} % confidence"
     if given.slides == 0:
         stable = "It does not slide: " if probability.upper <= RARE else ""
         more = "" if stable else " It takes more of them to call the slope stable."
-        return f"{stable}{counted} slid, so the probability of a slide is {within} ({confidence}).{more}"
+        return f"{stable}{seen} slid, so the probability of a slide is {within} ({confidence}).{more}"
     if given.slides < given.usable:
         within = f"{chance(probability.estimate)}, {within}"
-    return f"{counted} slid: the probability of a slide is {within} ({confidence})."
+    return f"{seen} slid: the probability of a slide is {within} ({confidence})."
 
 
 def _runout(results: Results) -> str:
@@ -101,7 +106,7 @@ def _walls(results: Results) -> str:
     if not hindered:
         return ""
     return (
-        f"This is a lower bound: {hindered} of {slides} slides reached a wall of the model and were stopped by it. "
+        f"This is a lower bound: a wall of the model stopped {hindered} of {counted(slides, 'slide')}. "
         "Give the slope a longer crest and plain."
     )
 

@@ -10,6 +10,7 @@ from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import failure_bounds
 from campaign.statistics.total import has_mesh_error
 from campaign.statistics.wording import chance, chances, metres
+from campaign.terminal import counted
 
 NOT_ESTIMATED = "not estimated"
 
@@ -51,12 +52,12 @@ def _runout(results: Results) -> list[Row]:
     mean, std, n = estimates.mean_runout(results), estimates.std_runout(results), str(results.outcomes.slides)
     if mean.n == 0:
         return []
-    total = estimates.total_runout(results)
+    total, spread = estimates.total_runout(results), metres(std) if std.is_known else ""
     holds = "sampling and mesh" if has_mesh_error(results.discretisation) else "sampling alone"
     return [
         Row("Total", f"mean run-out of a slide, {holds}", f"{total.estimate:.2f} m", metres(total), n),
         Row("Sampling", "mean run-out of a slide", f"{mean.estimate:.2f} m", metres(mean), n),
-        Row("Sampling", "standard deviation of a slide", _known(std.estimate, ".2f", " m"), metres(std), n),
+        Row("Sampling", "standard deviation of a slide", _known(std.estimate, ".2f", " m"), spread, n),
     ]
 
 
@@ -81,7 +82,11 @@ def _walls(results: Results) -> list[Row]:
         return []
     return [
         Row(
-            "Walls", "mean run-out of a slide", "at least", f"a wall stopped {hindered} of {slides} slides", str(slides)
+            "Walls",
+            "mean run-out of a slide",
+            "at least",
+            f"a wall stopped {hindered} of {counted(slides, 'slide')}",
+            str(slides),
         )
     ]
 

@@ -14,6 +14,7 @@ from campaign.statistics.intervals import Interval
 from campaign.statistics.receptors import ReceptorEstimate
 from campaign.statistics.total import has_mesh_error
 from campaign.statistics.wording import chance, chance_of_slide, chances
+from campaign.terminal import counted
 
 
 class Tile(NamedTuple):
@@ -47,7 +48,9 @@ def what_intervals_hold(results: Results) -> str:
 def _slide(results: Results) -> Tile:
     probability, given = estimates.slide_probability(results), results.outcomes
     failed = int(np.count_nonzero(results.has_failed))
-    remark = f"{given.slides} of {given.usable} simulated slopes slid" + (f"; {failed} failed" if failed else "")
+    remark = f"{given.slides} of {counted(given.usable, 'simulated slope')} slid" + (
+        f"; {failed} failed" if failed else ""
+    )
     if given.slides in (0, given.usable):
         return Tile("Probability of a slide", chance_of_slide(probability), "", remark)
     return Tile("Probability of a slide", chance(probability.estimate), chances(probability), remark)
@@ -73,7 +76,7 @@ def _remark(results: Results, total: Interval, share: float) -> str:
     hindered, unsettled = results.outcomes.hindered, results.by_status()[Status.not_settled]
     reasons = {f"a wall stopped {hindered}": hindered, f"{unsettled} still moved at the end": unsettled}
     if told := " and ".join(reason for reason, count in reasons.items() if count):
-        return f"lower bound: {told}, of {results.outcomes.slides} slides"
+        return f"lower bound: {told}, of {counted(results.outcomes.slides, 'slide')}"
     needed = math.ceil(math.log((1 - results.confidence) / 2) / math.log(max(share, 1 - share)))
     return f"both bounds need {needed} slides" if not total.is_known else ""
 

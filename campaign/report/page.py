@@ -29,7 +29,7 @@ from campaign.results.results import Results, read_results
 from campaign.scene.first_look import look_at
 from campaign.statistics.total import has_mesh_error
 from campaign.storage.layout import FIGURES, REPORT
-from campaign.terminal import say
+from campaign.terminal import counted, say
 
 
 def write_report(directory: Path) -> Path:
@@ -136,5 +136,5 @@ def _template() -> jinja2.Template:
     environment = jinja2.Environment(
         loader=loader, autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
-    environment.filters["unbroken"] = unbroken
+    environment.filters |= {"unbroken": unbroken, "counted": counted}
     return environment.get_template("report.html.jinja")

@@ -2,30 +2,33 @@
 
 from textwrap import fill
 
-from campaign.report.answer import answer, reasons_for_doubt
+from campaign.report.answer import answer, outcomes, reasons_for_doubt
 from campaign.report.choices import modelling_choices
 from campaign.report.error_budget import Row, error_budget
 from campaign.report.inputs import sentences
 from campaign.results.results import Results
 from campaign.statistics.receptors import receptor_estimates
 from campaign.statistics.wording import chance, chances
+from campaign.terminal import counted
 
 WIDTH = 110
 
 
 def summary(results: Results) -> str:
     """Return the answer of a campaign, its error budget and what it rests on as text."""
-    counts = ", ".join(f"{count} {status.name}" for status, count in results.by_status().items() if count)
+    choices = modelling_choices(results.scene)
+    width = max(map(len, choices)) + 1
     return "\n".join(
         [
             *(fill(sentence, WIDTH) for sentence in (answer(results), *reasons_for_doubt(results))),
-            f"Of {results.realizations} realizations: {counts}.",
+            f"How {counted(results.realizations, 'realization')} ended",
+            *(f"  {each.realizations:<6}{each.meaning}" for each in outcomes(results)),
             *_places(results),
             *(fill(sentence, WIDTH) for sentence in sentences(results)),
             f"Error budget at {100 * results.confidence:g} % confidence",
             *(f"  {row.source:16}{_words(row)}" for row in error_budget(results)),
             "What the answer rests on",
-            *(f"  {name:27}{choice}" for name, choice in modelling_choices(results.scene).items()),
+            *(f"  {name:{width}}{choice}" for name, choice in choices.items()),
         ]
     )
 

@@ -16,6 +16,7 @@ from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.release import OTHER, ReleaseComparison, with_other_release
 from campaign.statistics.tally import Tally
 from campaign.storage.layout import HALF_CELL, OTHER_RELEASE
+from campaign.terminal import counted
 
 
 class BeyondSampling(NamedTuple):
@@ -70,7 +71,7 @@ def _with_half_cell(scene: Scene, tally: Tally, pairs: int, means: Means) -> tup
         scene=lambda: finer,
         directory=means.home / HALF_CELL,
         announcement=(
-            f"Discretisation error: {pairs} realizations and the deterministic run again, with cells of "
+            f"Discretisation error: {counted(pairs, 'realization')} and the deterministic run again, with cells of "
             f"{finer.numerics.cell:g} m."
         ),
         loss="The discretisation error cannot be estimated with half the cell.",

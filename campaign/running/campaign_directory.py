@@ -135,13 +135,14 @@ def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:
         failed, limit = tally.failed_in_prefix, 100 * tally.max_failed_fraction
         return (
             ExitCode.TOO_MANY_FAILED,
-            f"{failed} of {tally.prefix} realizations failed, more than the {limit:g} % of max_failed_fraction",
+            f"{failed} of {counted(tally.prefix, 'realization')} failed, more than the {limit:g} % of "
+            "campaign.max_failed_fraction",
         )
     verdict = tally.history().verdict if tally.prefix else "no result yet"
     if tally.size is None or stopped:
         return ExitCode.RESUMABLE, f"stopped early ({stopped}); {verdict}"
     if tally.history().converged_at is None:
-        return ExitCode.DONE, f"stopped at the maximum of {tally.maximum} realizations; {verdict}"
+        return ExitCode.DONE, f"stopped at the maximum of {counted(tally.maximum, 'realization')}; {verdict}"
     return ExitCode.DONE, verdict
 
 

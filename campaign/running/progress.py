@@ -8,7 +8,7 @@ from campaign.statistics.forecast import predicted_stop
 from campaign.statistics.intervals import Interval, std_of
 from campaign.statistics.tally import Tally
 from campaign.statistics.wording import chance_of_slide
-from campaign.terminal import clock, duration, say
+from campaign.terminal import clock, counted, duration, say
 
 PERIOD = 15.0
 """Seconds between lines when nothing else calls for one."""
@@ -60,7 +60,7 @@ def state_line(tally: Tally) -> str:
     if tally.size is None:
         return f"{tally.done}/{tally.maximum} done, {tally.failed} failed{_estimates(tally)}"
     more = f" (and {tally.done - tally.size} beyond the end)" if tally.done > tally.size else ""
-    return f"{tally.size} realizations{more}, {tally.failed_in_prefix} failed{_estimates(tally)}"
+    return f"{counted(tally.size, 'realization')}{more}, {tally.failed_in_prefix} failed{_estimates(tally)}"
 
 
 def _estimates(tally: Tally) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 
 from campaign.record import Front
 from campaign.statistics.intervals import Sample, kurtosis
+from campaign.terminal import counted
 
 # A normal sample of 1000 has kurtosis 3.0 +- 0.15, and its largest value makes 1 % of the variance.
 HEAVY_KURTOSIS = 10.0
@@ -40,8 +41,8 @@ def heavy_tail(runouts: Sample) -> list[str]:
     if not tail > HEAVY_KURTOSIS:
         return []
     return [
-        f"The kurtosis of the run-out is {tail:.0f} (normal: 3): a few extreme slides decide the variance, and its "
-        "interval may be too narrow. Look at the longest run-outs and compute more realizations."
+        f"A few extreme slides decide how far run-outs scatter (their kurtosis is {tail:.0f}, normal is 3), so that "
+        "the interval of the scatter may be too narrow. Look at the longest run-outs and compute more realizations."
     ]
 
 
@@ -73,14 +74,14 @@ def detached_fronts(volumes: Sample, mass_runouts: Sample, front_area: float, fr
     apart, beyond = (int(np.count_nonzero(which)) for which in (volumes > 0.0, volumes >= front_area))
     if front == "tip" and apart:
         return [
-            f"In {apart} of {len(volumes)} slides the front-most ground has come apart, too far for the nodes to join "
-            'it to the slide: the run-out is that of this debris. Use slide.front = "mass" '
+            f"In {apart} of {counted(len(volumes), 'slide')} the front-most ground has come apart, too far for it to "
+            'be held back: the run-out is that of this debris. Use slide.front = "mass" '
             f"({mass_runouts.mean():.2f} m on average){_too_much(beyond)}."
         ]
     if beyond:
         return [
-            f"In {beyond} of {len(volumes)} slides more ground than slide.front_area has come apart: the run-out "
-            "is that of this debris. Use a larger slide.front_area."
+            f"In {beyond} of {counted(len(volumes), 'slide')} more ground than slide.front_area has come apart: the "
+            "run-out is that of this debris. Use a larger slide.front_area."
         ]
     return []
 

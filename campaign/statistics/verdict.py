@@ -2,6 +2,7 @@
 
 from campaign.statistics.stopping import LOOKS_IN_A_ROW, Checkpoint, StoppingRule
 from campaign.statistics.wording import chance_of_slide, percent
+from campaign.terminal import counted
 
 CONVERGED = "sampling converged"
 """How the verdict on a campaign that satisfies its rule begins."""
@@ -9,11 +10,11 @@ CONVERGED = "sampling converged"
 
 def stopping_verdict(latest: Checkpoint, rule: StoppingRule, converged: bool) -> str:
     """Say in a sentence whether the rule is satisfied, and if not, what is missing."""
-    outcomes, count = latest.outcomes, f"{latest.realizations} realizations"
+    outcomes, count = latest.outcomes, counted(latest.realizations, "realization")
     if converged:
         return f"{CONVERGED} at {count}: {_known(latest, rule)}, at {percent(rule.confidence)} confidence"
     if outcomes.usable < rule.minimum:
-        return f"not enough yet: {outcomes.usable} results in {count}, at least {rule.minimum} were asked"
+        return f"not enough yet: {counted(outcomes.usable, 'result')} in {count}, at least {rule.minimum} were asked"
     return f"not converged after {count}: {_shortfall(latest, rule)}"
 
 
@@ -41,7 +42,7 @@ def _shortfall(latest: Checkpoint, rule: StoppingRule) -> str:
 def _shortfall_of_runout(latest: Checkpoint, rule: StoppingRule) -> list[str]:
     slides = latest.outcomes.slides
     if slides < rule.minimum:
-        return [f"{slides} slides, at least {rule.minimum} were asked for mean and variance"]
+        return [f"{counted(slides, 'slide')}, at least {rule.minimum} were asked for mean and variance"]
     if not latest.variance.is_known:
         return [f"the {slides} slides give no interval for the variance"]
     asked = {

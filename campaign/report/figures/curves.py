@@ -6,6 +6,7 @@ from matplotlib.collections import LineCollection
 
 from campaign.report.figures.style import BLACK, BLUE, COLUMN, GREY, Illustration, need_slides, new_figure
 from campaign.results.results import Results
+from campaign.terminal import counted
 
 FEWEST_FOR_BANDS = 20
 """A 5 % quantile is not more than the smallest of fewer."""
@@ -29,8 +30,8 @@ def curves(results: Results) -> Illustration:
     axes.legend(loc="upper left")
     half = float(np.median(np.nan_to_num(results.data["settle_time"].values[results.has_slid], nan=np.inf)))
     rest = f" Half of them rest after {half:.1f} s." if np.isfinite(half) else ""
-    caption = f"Run-out of {n} slides over time.{rest}{what_is_drawn(n)}"
-    return Illustration(figure, caption, f"Run-out against time for {n} slides; all rise and level off.")
+    caption = f"Run-out of {counted(n, 'slide')} over time.{rest}{what_is_drawn(n)}"
+    return Illustration(figure, caption, f"Run-out against time for {counted(n, 'slide')}; all rise and level off.")
 
 
 def draw_histories(axes: Axes, time: np.ndarray, histories: np.ndarray) -> None:

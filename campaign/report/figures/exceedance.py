@@ -10,6 +10,7 @@ from campaign.report.figures.style import BLACK, BLUE, COLUMN, Illustration, nee
 from campaign.report.figures.svg import on_hover
 from campaign.results.results import Results
 from campaign.statistics.wording import chance
+from campaign.terminal import counted
 
 BEYOND = 1000.0
 """Metres for which the last probability is drawn; panels end before."""
@@ -32,8 +33,8 @@ def exceedance(results: Results, curve: Curve) -> Illustration:
     axes.set(xlabel="distance from the toe (m)", ylabel="probability of a longer run-out (%)")
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=3)
     caption = (
-        f"Probability of a run-out beyond a distance, counted in {results.outcomes.usable} realizations with {n} "
-        "slides, with its interval; without a slide the run-out is zero. Nothing was seen beyond "
+        f"Probability of a run-out beyond a distance, counted in {counted(results.outcomes.usable, 'realization')} "
+        f"with {n} slides, with its interval; without a slide the run-out is zero. Nothing was seen beyond "
         f"{longest:.2f} m; that alone leaves a probability of up to {chance(curve.upper[-1])}."
     )
     alt = f"Falling curve of the probability from {chance(curve.estimate[0])} to zero at {longest:.2f} m."

@@ -6,6 +6,7 @@ from campaign.report.figures.particles import Scale, draw_lattice, draw_still
 from campaign.report.figures.section import Section
 from campaign.report.figures.style import COLUMN, Illustration, need, new_figure
 from campaign.results.results import Results
+from campaign.terminal import counted
 
 
 def influence(results: Results, section: Section) -> Illustration:
@@ -21,8 +22,10 @@ def influence(results: Results, section: Section) -> Illustration:
     axes.set_xlabel("distance (m)")
     figure.colorbar(scale.mappable, ax=axes, label="probability (%)", location="bottom", shrink=0.7, aspect=40)
     caption = (
-        f"Share of the {n} realizations with a result in which the ground at a place moves by more than "
+        f"Share of {counted(n, 'realization')} with a result in which the ground at a place moves by more than "
         f"{results.scene.slide.displaced:g} m, shown where it was before. Grey: it never moved. Dashed: the ground "
         "before the slide."
     )
-    return Illustration(figure, caption, f"Map of how probable it is that the ground moves, from {n} realizations.")
+    return Illustration(
+        figure, caption, f"Map of how probable it is that the ground moves, from {counted(n, 'realization')}."
+    )

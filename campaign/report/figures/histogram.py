@@ -8,6 +8,7 @@ from campaign.report.figures.style import BLACK, BLUE, COLUMN, GREY, Illustratio
 from campaign.report.figures.svg import on_hover
 from campaign.results.results import Results
 from campaign.statistics.wording import metres
+from campaign.terminal import counted
 
 
 def histogram(results: Results) -> Illustration:
@@ -20,7 +21,7 @@ def histogram(results: Results) -> Illustration:
     counts, edges = np.histogram(runouts, bins="auto")
     bars = axes.bar(edges[:-1], counts, np.diff(edges), align="edge", color=GREY, alpha=0.6, edgecolor="white")
     for count, low, high, bar in zip(counts, edges[:-1], edges[1:], bars, strict=True):
-        on_hover(bar, f"{low:.2f} to {high:.2f} m: {count} slides ({100 * count / n:.3g} %)")
+        on_hover(bar, f"{low:.2f} to {high:.2f} m: {counted(count, 'slide')} ({100 * count / n:.3g} %)")
     x = np.linspace(max(0.0, mean - 3.5 * std), mean + 3.5 * std, 100)
     axes.plot(x, n * (edges[1] - edges[0]) * stats.norm.pdf(x, mean, std), color=BLUE, label="normal distribution")
     if np.isfinite(results.deterministic):
@@ -30,9 +31,9 @@ def histogram(results: Results) -> Illustration:
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=2)
     spread = estimates.std_runout(results)
     caption = (
-        f"Final run-out of {n} slides: mean {mean:.2f} m ({metres(estimates.mean_runout(results))}, sampling alone), "
-        f"standard deviation {std:.2f} m ({metres(spread)}). Blue: the normal distribution with these two numbers. "
-        "Dashed: the run with mean strengths everywhere."
+        f"Final run-out of {counted(n, 'slide')}: mean {mean:.2f} m ({metres(estimates.mean_runout(results))}, "
+        f"sampling alone), standard deviation {std:.2f} m ({metres(spread)}). Blue: the normal distribution with these "
+        "two numbers. Dashed: the run with mean strengths everywhere."
     )
-    alt = f"Histogram of {n} run-outs between {runouts.min():.2f} and {runouts.max():.2f} m."
+    alt = f"Histogram of {counted(n, 'run-out')} between {runouts.min():.2f} and {runouts.max():.2f} m."
     return Illustration(figure, caption, alt)

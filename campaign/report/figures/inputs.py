@@ -13,6 +13,7 @@ from campaign.scene.inputs import BY_KEY
 from campaign.statistics.changed_inputs import InputEffects
 from campaign.statistics.intervals import Interval
 from campaign.statistics.sensitivity import FEWEST, Ranking
+from campaign.terminal import counted
 
 BAR, OVERHEAD = 0.3, 0.85
 """Inches that a bar and the rest of a panel take."""
@@ -49,7 +50,7 @@ def _inputs(axes: Axes, effects: InputEffects) -> str:
     axes.set_xlabel("change of the run-out (m)")
     return (
         f"What {TENTH} of one input, all else unchanged, makes of the run-out of a slide: the mean of "
-        f"{len(effects.realizations)} slides computed again."
+        f"{counted(len(effects.realizations), 'slide')} computed again."
     )
 
 

@@ -16,6 +16,7 @@ from campaign.report.figures.section import Section
 from campaign.report.figures.style import BLACK, BLUE, Illustration
 from campaign.results.results import Results
 from campaign.statistics.total import has_mesh_error
+from campaign.terminal import counted
 
 LEFT, RIGHT, BELOW, ABOVE, GAP, STRIP = 0.62, 0.12, 0.45, 0.3, 0.12, 0.85
 """Margins, the gap between the panels, and the height of the upper one, in inches."""
@@ -81,8 +82,9 @@ def _caption(results: Results) -> str:
         return "The slope, which did not slide in any realization, with its toe and the places asked about."
     return (
         f"Upper part: the probability, with its {100 * results.confidence:g} % interval by sampling, that a slide gets "
-        f"as far from the toe; every tick is where one of the {slides} slides stopped. Lower part: the ground before "
-        f"(dashed) and after the slides. Bars in the ground: the intervals of where half and 95 % stop{_mesh(results)}."
+        f"as far from the toe; every tick is where one of {counted(slides, 'slide')} stopped. Lower part: the ground "
+        f"before (dashed) and after the slides. Bars in the ground: the intervals of where half and 95 % "
+        f"stop{_mesh(results)}."
     )
 
 

@@ -5,6 +5,7 @@ import numpy as np
 from campaign.report.figures.curves import draw_histories, what_is_drawn
 from campaign.report.figures.style import COLUMN, Illustration, letter, need, new_figure
 from campaign.results.results import Results
+from campaign.terminal import counted
 
 PANELS = {"receptor_depth": "depth (m)", "receptor_velocity": "velocity (m/s)"}
 
@@ -23,7 +24,7 @@ def histories(results: Results, receptor: str) -> Illustration:
     panels[1].set_xlabel("time since release (s)")
     letter(panels, ["", ""])
     caption = (
-        f"{receptor}: (a) depth and (b) velocity of the moving ground over time, in the {n} slides whose front gets "
-        f"there.{what_is_drawn(n)}"
+        f"{receptor}: (a) depth and (b) velocity of the moving ground over time, in {counted(n, 'slide')} whose front "
+        f"gets there.{what_is_drawn(n)}"
     )
-    return Illustration(figure, caption, f"Depth and velocity at {receptor} over time, of {n} slides.")
+    return Illustration(figure, caption, f"Depth and velocity at {receptor} over time, of {counted(n, 'slide')}.")

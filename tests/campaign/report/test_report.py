@@ -210,6 +210,15 @@ def test_few_realizations_give_a_page(tmp_path, ground, n, lacking):
 
 
 @pytest.mark.usefixtures("without_replays")
+@pytest.mark.usefixtures("without_replays")
+def test_one_has_no_plural_anywhere(tmp_path, ground):
+    page = made_up_page(tmp_path, ground, [9.0], [Status.not_settled])
+    terminal = summary(read_results(tmp_path))
+    for text in (page.text, *page.figures, terminal):
+        assert re.findall(r"\b1 (slides|realizations|results|run-outs|simulated slopes|times|pairs)\b", text) == []
+    assert "How 1 realization ended" in terminal
+
+
 def test_no_slide_in_few_realizations_is_not_yet_an_answer(tmp_path, ground):
     page = made_up_page(tmp_path, ground, [0.0] * 12, [Status.no_slide] * 12)
     assert "0 of 12 realizations slid, so the probability of a slide is at most 26 % (95 % confidence)." in page.text
@@ -251,7 +260,7 @@ def test_a_wall_makes_lower_bounds_and_is_told(tmp_path, ground):
     """8 of 20 slides go beyond 9 m, and 3 that a wall has stopped may have: Wilson's bounds of 8/20 and 11/20."""
     runouts = [*[8.0] * 9, *[10.0] * 8, *[7.5] * 3]
     page = made_up_page(tmp_path, ground, runouts, [Status.slid] * 17 + [Status.reached_wall] * 3)
-    assert "This is a lower bound: 3 of 20 slides reached a wall of the model" in page.text
+    assert "This is a lower bound: a wall of the model stopped 3 of 20 slides." in page.text
     assert "40 % of all realizations run farther (22 to 74 %)" in page.text
     assert "a wall stopped 3 of 20 slides" in page.text
 
@@ -260,7 +269,7 @@ def test_a_wall_makes_lower_bounds_and_is_told(tmp_path, ground):
 def test_nothing_but_failures(tmp_path, ground):
     page = made_up_page(tmp_path, ground, [np.nan] * 12, [Status.crashed] * 12, baseline=Status.diverged)
     assert "failed: crashed" in page.text
-    assert "No answer: all 10 realizations failed." in page.text
+    assert "No answer: 10 realizations, and none with a result." in page.text
     assert error_budget(read_results(tmp_path))[0].value == "no realization with a result"
     assert "a reason <b>&" in page.text
     assert page.figures == []
@@ -274,7 +283,7 @@ def test_some_failures_are_bounded(tmp_path, ground):
     assert "1 failed" in page.text
     assert "83 to 91.7 %" in page.text
     assert "91.7 to 100 %" in page.text
-    assert "2 of the 11 run-outs are lower bounds" in page.text
+    assert "2 of 11 run-outs are lower bounds: still moving when the run ended" in page.text
 
 
 def test_convergence_is_told(tmp_path, ground):
