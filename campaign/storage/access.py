@@ -25,6 +25,8 @@ Manifest = dict[str, Any]
 OWN = {LOCK, RECORDS, PACKS, ATTEMPTS, HALF_CELL, OTHER_RELEASE, CHANGED_INPUTS}
 """What a campaign that was killed before its manifest was written may leave."""
 
+FRONT_BEFORE_THERE_WAS_A_KEY = "tip"
+
 NEEDED = {"title", "scene", "overrides", "identity", "digest", "campaign", "starts", "end"}
 """What every manifest holds, of whatever format."""
 
@@ -85,12 +87,13 @@ def judge(
         return Judgement(Access.READABLE, "No scene is given that could go on.", (), kept)
     if why := _another_scene(directory, scene, kept):
         return Judgement(Access.READABLE, why, (), kept)
+    front = _changed_front(scene, kept)
     if start is None or start["realization_sha256"] == kept["starts"][-1]["realization_sha256"]:
-        return Judgement(Access.CONTINUABLE, "", _changed_versions(kept["starts"][-1], start or {}), kept)
+        return Judgement(Access.CONTINUABLE, "", (*front, *_changed_versions(kept["starts"][-1], start or {})), kept)
     if not allow_drift:
         return Judgement(Access.READABLE, _drift(directory, kept["starts"][-1], start), (), kept)
     note = f"The solver has changed since {kept['starts'][-1]['at']}; --allow-drift mixes older and newer realizations."
-    return Judgement(Access.CONTINUABLE, "", (note,), kept)
+    return Judgement(Access.CONTINUABLE, "", (*front, note), kept)
 
 
 def check_digest(scene: Scene, digest: str) -> None:
@@ -153,6 +156,17 @@ def _drift(directory: Path, last: Mapping[str, Any], start: Mapping[str, Any]) -
         f"The realizations in {directory} were computed by another version of the solver (sources "
         f"{last['realization_sha256'][:12]}, now {start['realization_sha256'][:12]}). Give another --out, or "
         "accept the mixture with --allow-drift, which is written into the results."
+    )
+
+
+def _changed_front(scene: Scene, kept: Manifest) -> tuple[str, ...]:
+    """Return what is to be said when statistics are of another front than before."""
+    before, now = kept.get("front", FRONT_BEFORE_THERE_WAS_A_KEY), scene.slide.front
+    if before == now:
+        return ()
+    return (
+        f'Statistics are now of slide.front = "{now}", for all realizations; they were of "{before}". '
+        f"--set slide.front={before} keeps that.",
     )
 
 

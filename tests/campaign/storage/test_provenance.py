@@ -49,6 +49,17 @@ def test_a_changed_library_is_mentioned(begun):
     assert note.startswith("numpy was 1.0")
 
 
+@pytest.mark.parametrize("before", [None, "tip"])
+def test_statistics_of_another_front_than_before_are_told(begun, before):
+    """The first versions knew only the front-most particle, and did not say so."""
+    kept = manifest.read(begun)
+    kept.pop("front")
+    (begun / "manifest.json").write_text(json.dumps(kept | ({"front": before} if before else {})))
+    assert manifest.begin(begun, load_scene("ma2023", ["slide.front=tip"]), ranks=1, allow_drift=False) == []
+    (note,) = manifest.begin(begun, load_scene("ma2023"), ranks=1, allow_drift=False)
+    assert 'of slide.front = "mass", for all realizations; they were of "tip". --set slide.front=tip keeps that' in note
+
+
 def test_a_directory_full_of_other_things_is_refused(tmp_path):
     (tmp_path / "thesis.tex").touch()
     with pytest.raises(RefusalError, match=r"thesis\.tex"):
