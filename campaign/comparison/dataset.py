@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
+from datetime import UTC, datetime
 from typing import Any
 
 import numpy as np
@@ -108,6 +109,7 @@ def _attributes(given: Comparison, doubts: Sequence[str]) -> dict[str, str | flo
         "Conventions": "CF-1.11",
         "title": f"Comparison of {', '.join(given.names)}",
         "source": f"runout-campaign {program_version()}",
+        "history": f"{datetime.now(UTC).isoformat(timespec='seconds')} compared by campaign compare",
         "confidence": given.confidence,
         "front": given.front,
         "seeds": " ".join(str(each.scene.campaign.seed) for each in given.scenarios),

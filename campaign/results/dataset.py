@@ -107,6 +107,8 @@ def _given(ground: PreparedGround, rows: Mapping[str, Quantity]) -> Variables:
             del variables[name].attrs["units"]
         if bounds in given:
             variables[name].attrs["bounds"] = bounds
+        if name.endswith("_bounds"):  # whose meaning is that of their place, and none is missing
+            variables[name] = xr.Variable(row.dims, given[name], encoding={"_FillValue": None})
     return variables
 
 
@@ -156,5 +158,10 @@ def _encoding(dataset: xr.Dataset) -> dict[str, dict[str, Any]]:
     for name, stored in dataset.data_vars.items():
         if stored.dims and stored.dtype.kind in "fiu":
             chunks = [min(CHUNK, size) if dim == "realization" else size for dim, size in stored.sizes.items()]
-            encoding[str(name)] = {"zlib": True, "complevel": 4, "shuffle": True, "chunksizes": chunks}
+            encoding[str(name)] = {
+                "zlib": True,
+                "complevel": 4,
+                "shuffle": True,
+                "chunksizes": chunks,
+            } | stored.encoding
     return encoding

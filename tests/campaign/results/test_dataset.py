@@ -59,9 +59,10 @@ def test_dimensions_are_those_of_the_table(opened):
 def test_every_float_has_a_unit_and_every_variable_a_name(opened):
     bounds = {variable.attrs.get("bounds") for variable in opened.variables.values()}
     for name, variable in opened.variables.items():
-        assert "long_name" in variable.attrs, name
-        if name in bounds:  # after CF they have the unit of what they bound
+        if name in bounds:  # after CF they have unit and name of what they bound, and nothing is missing
+            assert (variable.attrs, variable.encoding.get("_FillValue")) == ({}, None)
             continue
+        assert "long_name" in variable.attrs, name
         assert variable.dtype.kind != "f" or "units" in variable.attrs, name
 
 
