@@ -40,7 +40,7 @@ def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
         "mesh": _mesh(scene),
         "random field": _field(size),
         "cost": _cost(scene),
-        "memory": f"About {data_size(rank_bytes(scene) + size.least)} a rank; the results take "
+        "memory": f"About {data_size(rank_bytes(scene) + size.least)} for each rank (process); the results take "
         f"{data_size(dataset_bytes(scene))}.",
     }
     lines = [paragraph(heading, text) for heading, text in paragraphs.items()]
@@ -118,9 +118,8 @@ def _mesh(scene: Scene) -> str:
 
 def _field(size: FieldSize) -> str:
     rows, columns = size.shape
-    return (
-        f"{columns:,} x {rows:,} points, {size.resolution:g} m apart; {data_size(size.least)} or more for its sampler."
-    )
+    memory = data_size(size.least)
+    return f"{columns:,} x {rows:,} points, {size.resolution:g} m apart; drawing one takes {memory} or more."
 
 
 def _cost(scene: Scene) -> str:

@@ -76,7 +76,7 @@ def _remark(results: Results, total: Interval, share: float) -> str:
     hindered, unsettled = results.outcomes.hindered, results.by_status()[Status.not_settled]
     reasons = {f"a wall stopped {hindered}": hindered, f"{unsettled} still moved at the end": unsettled}
     if told := " and ".join(reason for reason, count in reasons.items() if count):
-        return f"lower bound: {told}, of {counted(results.outcomes.slides, 'slide')}"
+        return f"lower bound: of {counted(results.outcomes.slides, 'slide')} {told}"
     needed = math.ceil(math.log((1 - results.confidence) / 2) / math.log(max(share, 1 - share)))
     return f"both bounds need {needed} slides" if not total.is_known else ""
 

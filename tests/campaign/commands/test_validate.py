@@ -28,7 +28,7 @@ def test_a_scene_is_looked_at(capsys):
         "after 6.7 to 22 s, half of them before 10 s. The run ends at 10 s.",
         "300 x 76 points, 0.25 m apart",
         "core-hours for all 1,000, with 4 repeated",
-        "a rank; the results take",
+        "for each rank (process); the results take",
     ):
         assert part in flat
     assert "Warning" not in flat

@@ -92,7 +92,7 @@ def test_walls_and_failures_are_told_first():
     statuses = [Status.slid] * 8 + [Status.reached_wall, Status.not_settled, Status.crashed]
     probability, median, _ = headline.tiles(results([*np.arange(1.0, 11.0), np.nan], statuses))
     assert probability.remark == "10 of 10 simulated slopes slid; 1 failed"
-    assert median.remark == "lower bound: a wall stopped 1 and 1 still moved at the end, of 10 slides"
+    assert median.remark == "lower bound: of 10 slides a wall stopped 1 and 1 still moved at the end"
 
 
 def test_units_are_those_of_a_reader():
