@@ -47,7 +47,7 @@ def reasons_for_doubt(results: Results) -> list[str]:
     """Return sentences on why the run-outs or their intervals may not hold."""
     unsettled, n = results.by_status()[Status.not_settled], results.outcomes.slides
     censored = (
-        f"{unsettled} of {counted(n, 'run-out')} {'is a lower bound' if unsettled == 1 else 'are lower bounds'}: still "
+        f"{unsettled:,} of {counted(n, 'run-out')} {'is a lower bound' if unsettled == 1 else 'are lower bounds'}: still "
         "moving when the run ended (numerics.end_time)."
     )
     volumes, mass_runouts = results.of_slides("detached_volume"), results.of_slides(FINAL_RUNOUT["mass"])
@@ -69,7 +69,7 @@ def _chance(results: Results) -> str:
     """Say how probable a slide is."""
     probability, given = estimates.slide_probability(results), results.outcomes
     with_result = " with a result" if results.has_failed.any() else ""
-    seen = f"{given.slides} of {counted(given.usable, 'realization')}{with_result}"
+    seen = f"{given.slides:,} of {counted(given.usable, 'realization')}{with_result}"
     within, confidence = chance_of_slide(probability), f"{100 * results.confidence:g} % confidence"
     if given.slides == 0:
         stable = "It does not slide: " if probability.upper <= RARE else ""
@@ -106,7 +106,7 @@ def _walls(results: Results) -> str:
     if not hindered:
         return ""
     return (
-        f"This is a lower bound: a wall of the model stopped {hindered} of {counted(slides, 'slide')}. "
+        f"This is a lower bound: a wall of the model stopped {hindered:,} of {counted(slides, 'slide')}. "
         "Give the slope a longer crest and plain."
     )
 

@@ -85,7 +85,7 @@ def _walls(results: Results) -> list[Row]:
             "Walls",
             "mean run-out of a slide",
             "at least",
-            f"a wall stopped {hindered} of {counted(slides, 'slide')}",
+            f"a wall stopped {hindered:,} of {counted(slides, 'slide')}",
             str(slides),
         )
     ]

@@ -48,7 +48,7 @@ def what_intervals_hold(results: Results) -> str:
 def _slide(results: Results) -> Tile:
     probability, given = estimates.slide_probability(results), results.outcomes
     failed = int(np.count_nonzero(results.has_failed))
-    remark = f"{given.slides} of {counted(given.usable, 'simulated slope')} slid" + (
+    remark = f"{given.slides:,} of {counted(given.usable, 'simulated slope')} slid" + (
         f"; {failed} failed" if failed else ""
     )
     if given.slides in (0, given.usable):

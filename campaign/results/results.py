@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -59,7 +60,7 @@ class Results:
         """Whether a realization has no result, (realization,)."""
         return self.has_status(FAILED)
 
-    @property
+    @cached_property
     def outcomes(self) -> Outcomes:
         """What became of the realizations, for statistics."""
         columns = [self.data[name].values.tolist() for name in ("status", *FINAL_RUNOUT.values())]

@@ -135,7 +135,7 @@ def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:
         failed, limit = tally.failed_in_prefix, 100 * tally.max_failed_fraction
         return (
             ExitCode.TOO_MANY_FAILED,
-            f"{failed} of {counted(tally.prefix, 'realization')} failed, more than the {limit:g} % of "
+            f"{failed:,} of {counted(tally.prefix, 'realization')} failed, more than the {limit:g} % of "
             "campaign.max_failed_fraction",
         )
     verdict = tally.history().verdict if tally.prefix else "no result yet"

@@ -74,13 +74,13 @@ def detached_fronts(volumes: Sample, mass_runouts: Sample, front_area: float, fr
     apart, beyond = (int(np.count_nonzero(which)) for which in (volumes > 0.0, volumes >= front_area))
     if front == "tip" and apart:
         return [
-            f"In {apart} of {counted(len(volumes), 'slide')} the front-most ground has come apart, too far for it to "
+            f"In {apart:,} of {counted(len(volumes), 'slide')} the front-most ground has come apart, too far for it to "
             'be held back: the run-out is that of this debris. Use slide.front = "mass" '
             f"({mass_runouts.mean():.2f} m on average){_too_much(beyond)}."
         ]
     if beyond:
         return [
-            f"In {beyond} of {counted(len(volumes), 'slide')} more ground than slide.front_area has come apart: the "
+            f"In {beyond:,} of {counted(len(volumes), 'slide')} more ground than slide.front_area has come apart: the "
             "run-out is that of this debris. Use a larger slide.front_area."
         ]
     return []

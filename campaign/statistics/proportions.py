@@ -1,6 +1,7 @@
 """Probabilities from counts, each with its interval, and what is left open by realizations that cannot be counted."""
 
 import math
+from functools import lru_cache
 
 from scipy import special
 
@@ -32,6 +33,7 @@ def exact_interval(successes: int, n: int, confidence: float) -> Interval:
     return Interval(successes / n, float(lower), float(upper), n)
 
 
+@lru_cache(maxsize=4096)
 def proportion_interval(successes: int, n: int, confidence: float) -> Interval:
     """Proportion with Wilson's score interval, which stays inside [0, 1] and does not collapse at 0 or n successes.
 

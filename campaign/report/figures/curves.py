@@ -11,8 +11,8 @@ from campaign.terminal import counted
 FEWEST_FOR_BANDS = 20
 """A 5 % quantile is not more than the smallest of fewer."""
 
-MOST_LINES = 200
-"""More would be an area; the quantiles are of all."""
+MOST_LINES = 80
+"""More would be an area, and 3 kB of the page each; the quantiles are of all."""
 
 
 def curves(results: Results) -> Illustration:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import Final, NamedTuple
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -15,6 +16,7 @@ from campaign.report.figures.marks import draw_total_intervals, marks
 from campaign.report.figures.section import Section
 from campaign.report.figures.style import BLACK, BLUE, Illustration
 from campaign.results.results import Results
+from campaign.statistics.intervals import Sample
 from campaign.statistics.total import has_mesh_error
 from campaign.terminal import counted
 
@@ -69,11 +71,18 @@ def _reach(axes: Axes, results: Results, curve: Curve, section: Section) -> None
     """Draw how probable it is that a slide gets as far, and where each of them stopped."""
     toe = section.surface.toe[0]
     draw_curve(axes, curve, "", toe)
-    axes.vlines(toe + results.slide_runouts, 0.0, 0.09, color=BLACK, linewidth=0.6, alpha=0.6)
+    _ticks(axes, toe + results.slide_runouts)
     axes.set(xlim=(0, section.right), ylim=(0, 1.05), yticks=[0, 0.5, 1], xticklabels=[])
     axes.set_ylabel("reached (%)")
     section.mark_receptors(axes, 1.05)
     axes.text(0.01 * section.right, 0.5, "how probable it is that\na slide gets as far", color=BLUE, va="center")
+
+
+def _ticks(axes: Axes, places: Sample) -> None:
+    """Mark places (m) on the axis, by one line with gaps: a line for each would be half of a large figure."""
+    x = np.repeat(places, 3)
+    y = np.tile([0.0, 0.09, np.nan], places.size)
+    axes.plot(x, y, color=BLACK, linewidth=0.6, alpha=0.6)
 
 
 def _caption(results: Results) -> str:
