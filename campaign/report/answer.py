@@ -46,9 +46,9 @@ def answer(results: Results) -> str:
 def reasons_for_doubt(results: Results) -> list[str]:
     """Return sentences on why the run-outs or their intervals may not hold."""
     unsettled, n = results.by_status()[Status.not_settled], results.outcomes.slides
+    bounds = "is a lower bound" if unsettled == 1 else "are lower bounds"
     censored = (
-        f"{unsettled:,} of {counted(n, 'run-out')} {'is a lower bound' if unsettled == 1 else 'are lower bounds'}: still "
-        "moving when the run ended (numerics.end_time)."
+        f"{unsettled:,} of {counted(n, 'run-out')} {bounds}: still moving when the run ended (numerics.end_time)."
     )
     volumes, mass_runouts = results.of_slides("detached_volume"), results.of_slides(FINAL_RUNOUT["mass"])
     apart = detached_fronts(volumes, mass_runouts, results.scene.slide.front_area, results.front)
