@@ -18,7 +18,7 @@ HELP = "find every mistake in a scene; toe, factor of safety, what to expect, a 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     add_scene(parser)
-    parser.add_argument("--quick", action="store_true", help="without the slide with mean strengths, in half a second")
+    parser.add_argument("--quick", action="store_true", help="without the slide with mean strengths")
 
 
 def carry_out(options: argparse.Namespace) -> ExitCode:

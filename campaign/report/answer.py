@@ -123,7 +123,7 @@ def _spread(results: Results) -> str:
 
 
 def _farthest(results: Results) -> str:
-    far = estimates.quantile_runout(results, estimates.FAR)
+    far = estimates.total_quantile(results, estimates.FAR)
     if not far.is_known:
         return ""
     return f"{100 * estimates.FAR:g} % of the slides stop within {far.estimate:.2f} m ({metres(far)})."
