@@ -1,8 +1,8 @@
 """The one place where Numba is configured.
 
-``kernel`` compiles passes over all particles or nodes. What they are made of is always inlined, so that LLVM can
-vectorise the loops as a whole. ``inlined`` compiles operations on a block of particles. ``point`` marks functions of
-one point, which stay plain Python outside kernels.
+``kernel`` compiles what Python calls. ``sweep`` marks passes over all particles or nodes, which kernels put together.
+``inlined`` marks what they are made of, operations on a block of particles or on one point: it is always inlined, so
+that LLVM can vectorise a loop as a whole. What is only marked stays plain Python outside kernels.
 """
 
 from collections.abc import Callable
@@ -23,9 +23,11 @@ _FLAGS: dict[str, Any] = {
     # Other threads of the process (the hand-out of realizations) run while a kernel computes.
     "nogil": True,
 }
+# Half of the time that Numba takes goes into wrappers for calls from Python and from C.
+_WITHIN = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, **_FLAGS}
 # What is inlined is compiled with the kernel that calls it, and never kept by itself: Numba would keep it beside its
 # source, and not notice when what it calls changes.
-_INLINED = {"forceinline": True, **_FLAGS}
+_INLINED = {"forceinline": True, **_WITHIN}
 
 
 def _compiled(**flags: Any) -> Callable[[Callable[..., Any]], Any]:
@@ -39,8 +41,8 @@ def _compiled(**flags: Any) -> Callable[[Callable[..., Any]], Any]:
 
 
 kernel = _compiled(cache=True, **_FLAGS)  # a warm start takes milliseconds instead of tens of seconds
-inlined = _compiled(**_INLINED)
-point = register_jitable(**_INLINED)
+sweep = register_jitable(**_WITHIN)
+inlined = register_jitable(**_INLINED)
 
 
 def chosen_by_type(function: Any) -> Any:

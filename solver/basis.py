@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solver._jit import kernel, point
+from solver._jit import inlined, kernel
 from solver.grid import particle_spacing
 from solver.method import Basis
 
@@ -50,7 +50,7 @@ def allocate_stencil(n_particles: int) -> Stencil:
     return Stencil(np.empty(n_particles, np.int64), *(np.empty((3, n_particles)) for _ in range(4)))
 
 
-@point
+@inlined
 def weight_and_gradient(distance, half_length, inverse_cell):
     """Return ``(S_0, S_1, S_2)`` and ``(S_0', S_1', S_2')`` at ``distance`` cells from the first of the three nodes."""
     t = max(0.0, distance - (1.0 - half_length))

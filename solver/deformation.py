@@ -1,15 +1,38 @@
-"""Operations 5 and 6 of a step: particles deform with the velocity of the nodes, and move.
+"""Operations 5 and 6 of a step, particles deform with the velocity of the nodes, and move; and 1 of the next step.
 
 Arguments are those of ``step``; ``nodal_velocity`` (rows, 2, columns) in m/s.
 """
 
-from solver._jit import inlined, kernel
+from typing import Any
+
+from solver._jit import chosen_by_type, inlined, sweep
 from solver.cells import add_to_pool, average, deposit_pool, no_pool, read, shares_of, volumes_in
-from solver.lanes import splat, total
+from solver.lanes import splat, total, where
+from solver.leavers import settle_all
 from solver.mean_dilation import NO_VOLUME, with_mean_dilation
-from solver.operations import GRAVITY_WORK, INTERNAL_WORK, deform_block, move_block
-from solver.scheme import CELL_AVERAGE, USF
-from solver.tiles import INCREMENT_XX, INCREMENT_XY, INCREMENT_YX, INCREMENT_YY, get, place_of, put, take
+from solver.operations import GRAVITY_WORK, INTERNAL_WORK, clear_state, deform_block, move_block
+from solver.pool import (
+    add_to_state_pool,
+    average_state_pool,
+    deposit_state_pool,
+    empty_state_pool,
+    no_state_pool,
+    settle_and_pool,
+)
+from solver.scheme import USF, USL, CellScheme
+from solver.spread import settle_and_spread, spread_each_of_cells, spread_tile
+from solver.tiles import (
+    INCREMENT_XX,
+    INCREMENT_XY,
+    INCREMENT_YX,
+    INCREMENT_YY,
+    PLASTIC_INCREMENT,
+    PLASTIC_STRAIN,
+    get,
+    place_of,
+    put,
+    take,
+)
 from solver.transfer import gradient, weights_of
 
 
@@ -21,36 +44,29 @@ def displacement_gradients(nodal_velocity, row, column, w, grid, dt):
 
 
 @inlined
-def enter(ledger, done, gravity, fall):
-    """Enter the work of the stresses (J/m) and the loss of height times mass (kg) of the lanes in the ledger."""
-    ledger[INTERNAL_WORK] += total(done)
+def enter(ledger, work, gravity, fall):
+    """Enter the work of the stresses (J/m) and the loss of height times mass (kg m) of the lanes in the ledger."""
+    ledger[INTERNAL_WORK] += total(work)
     ledger[GRAVITY_WORK] += gravity * total(fall)
 
 
 @inlined
-def deform_tile(tiles, tile, nodal_velocity, grid, work, laws, moves, gravity, dt):
+def deform_tile(tiles, tile, nodal_velocity, grid, ledger, laws, moves, gravity, dt):
     """Operations 5 and 6 for a tile."""
     row, column = place_of(tile, grid)
-    done = fall = splat(0.0)
+    work = fall = splat(0.0)
     block = tiles.first[tile]
     while block >= 0:
         p = take(tiles, block)
         w = weights_of(p.x, p.y, row, column, grid)
         increment = displacement_gradients(nodal_velocity, row, column, w, grid, dt)
-        done = done + deform_block(tiles, block, p, increment, laws, dt, False)
+        new = deform_block(tiles, block, p, increment, laws, dt)
+        put(tiles, block, PLASTIC_STRAIN, new.plastic_strain)
+        work = work + new.work
         if moves:
-            fall = fall + move_block(tiles, block, p, row, column, grid)
+            fall = fall + move_block(tiles, block, p, row, column, grid).fall
         block = tiles.following[block]
-    enter(work.ledger, done, gravity, fall)
-
-
-@kernel
-def deform_each(tiles, grid, work, laws, scheme, nodal_velocity, gravity, dt):
-    """Operations 5 and 6."""
-    moves = scheme.stress_update != USF
-    for tile in range(tiles.first.size):
-        if tiles.first[tile] >= 0:
-            deform_tile(tiles, tile, nodal_velocity, grid, work, laws, moves, gravity, dt)
+    enter(ledger, work, gravity, fall)
 
 
 @inlined
@@ -75,11 +91,23 @@ def dilate_tile(tiles, tile, nodal_velocity, grid, dt):
     deposit_pool(grid.cell_dilation, row, column, dilation, grid)
 
 
+@sweep
+def dilate_each(tiles, grid, nodal_velocity, dt):
+    """Find the displacement gradients of the particles, and the mean dilation of the cells."""
+    grid.cell_volume[:] = 0.0
+    grid.cell_dilation[:] = 0.0
+    for tile in range(tiles.first.size):
+        if tiles.first[tile] >= 0:
+            dilate_tile(tiles, tile, nodal_velocity, grid, dt)
+    average(grid.cell_dilation, grid.cell_volume, NO_VOLUME)
+
+
 @inlined
-def yield_tile(tiles, tile, grid, work, laws, scheme, gravity, dt):
-    """Operations 5 and 6 for a tile, with the dilation of its cells."""
+def yield_tile(tiles, tile, grid, ledger, laws, scheme, gravity, dt):
+    """Operations 5 and 6 for a tile, with the dilation of its cells, which gather the particles as they are then."""
     row, column = place_of(tile, grid)
-    done = fall = splat(0.0)
+    work = fall = splat(0.0)
+    sums = no_state_pool()
     block = tiles.first[tile]
     while block >= 0:
         p = take(tiles, block)
@@ -89,38 +117,79 @@ def yield_tile(tiles, tile, grid, work, laws, scheme, gravity, dt):
             get(tiles, block, INCREMENT_YX),
             get(tiles, block, INCREMENT_YY),
         )
-        if scheme.locking == CELL_AVERAGE:
-            shares = shares_of(p.x, p.y, row, column, grid)
+        shares = shares_of(p.x, p.y, row, column, grid)
+        if scheme.averages_dilation:
             increment = with_mean_dilation(increment, read(grid.cell_dilation, row, column, shares, grid))
-        averages = scheme.averages_plastic_strain
-        done = done + deform_block(tiles, block, p, increment, laws, dt, averages)
+        new = deform_block(tiles, block, p, increment, laws, dt)
+        work = work + new.work
+        yielded = new.plastic_strain - p.plastic_strain
+        put(tiles, block, PLASTIC_INCREMENT, yielded)
+        if not scheme.averages_plastic_strain:
+            put(tiles, block, PLASTIC_STRAIN, new.plastic_strain)
+        volume = new.volume
         if scheme.stress_update != USF:
-            fall = fall + move_block(tiles, block, p, row, column, grid)
+            moved = move_block(tiles, block, p, row, column, grid)
+            fall = fall + moved.fall
+            shares = shares_of(moved.x, moved.y, row, column, grid)
+            volume = where(moved.stays, volume, 0.0)
+        sums = add_to_state_pool(sums, shares, volume, 0.5 * (new.stress_xx + new.stress_yy), yielded)
         block = tiles.following[block]
-    enter(work.ledger, done, gravity, fall)
+    enter(ledger, work, gravity, fall)
+    deposit_state_pool(grid, row, column, sums)
 
 
-@kernel
-def deform_cells(tiles, grid, work, laws, scheme, nodal_velocity, gravity, dt):
-    """Operations 5 and 6 with the dilation of the cells."""
-    grid.cell_volume[:] = 0.0
-    grid.cell_dilation[:] = 0.0
+@sweep
+def yield_each(tiles, grid, ledger, laws, scheme, gravity, dt):
+    """Operations 5 and 6 with what ``dilate_each`` has found; return whether all particles are on the grid."""
+    empty_state_pool(grid)
     for tile in range(tiles.first.size):
         if tiles.first[tile] >= 0:
-            dilate_tile(tiles, tile, nodal_velocity, grid, dt)
-    average(grid.cell_dilation, grid.cell_volume, NO_VOLUME)
-    for tile in range(tiles.first.size):
-        if tiles.first[tile] >= 0:
-            yield_tile(tiles, tile, grid, work, laws, scheme, gravity, dt)
+            yield_tile(tiles, tile, grid, ledger, laws, scheme, gravity, dt)
+    return settle_and_pool(tiles, grid)
 
 
-@kernel
+@inlined
+def velocity_to_deform_with(grid, scheme):
+    """Return the nodal velocity (rows, 2, columns) in m/s of operation 5."""
+    return grid.velocity if scheme.stress_update == USL else grid.remapped
+
+
+def deform(tiles, grid, ledger, laws, scheme, gravity, dt):
+    """Operations 5 and 6, and 1 of the next step; return whether all particles are on the grid."""
+    raise NotImplementedError("A kernel's own.")
+
+
+@chosen_by_type(deform)
+def _deform(tiles: Any, grid: Any, ledger: Any, laws: Any, scheme: Any, gravity: Any, dt: Any) -> Any:
+    def tile_by_tile(tiles, grid, ledger, laws, scheme, gravity, dt):
+        nodal_velocity = velocity_to_deform_with(grid, scheme)
+        clear_state(grid)
+        for tile in range(tiles.first.size):
+            if tiles.first[tile] >= 0:
+                deform_tile(tiles, tile, nodal_velocity, grid, ledger, laws, scheme.stress_update != USF, gravity, dt)
+                spread_tile(tiles, tile, grid)
+        return settle_and_spread(tiles, grid)
+
+    def with_means_over_cells(tiles, grid, ledger, laws, scheme, gravity, dt):
+        dilate_each(tiles, grid, velocity_to_deform_with(grid, scheme), dt)
+        if not yield_each(tiles, grid, ledger, laws, scheme, gravity, dt):
+            return False
+        average_state_pool(grid, scheme)
+        spread_each_of_cells(tiles, grid, scheme)
+        return True
+
+    return with_means_over_cells if scheme.instance_class is CellScheme else tile_by_tile
+
+
+@sweep
 def move_each(tiles, grid, gravity, ledger):
-    """Operation 6 for all particles."""
+    """Operation 6 for all particles; return whether they are on the grid."""
+    fall = splat(0.0)
     for tile in range(tiles.first.size):
         row, column = place_of(tile, grid)
         block = tiles.first[tile]
         while block >= 0:
-            fall = move_block(tiles, block, take(tiles, block), row, column, grid)
-            ledger[GRAVITY_WORK] += gravity * total(fall)
+            fall = fall + move_block(tiles, block, take(tiles, block), row, column, grid).fall
             block = tiles.following[block]
+    ledger[GRAVITY_WORK] += gravity * total(fall)
+    return settle_all(tiles, grid)

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solver.constants import LANE_COUNT
+from solver.memory import aligned_zeros
 
 PADDING = 2  # layers of nodes beyond a wall: GIMP weights reach one, a particle pressed into the wall a second
 SCALARS = ("mass", "cell_volume", "cell_dilation", "cell_pressure", "cell_plastic_strain")
@@ -90,6 +91,6 @@ def allocate_grid(
         free_x=(above_base & between_sides).astype(float),
         free_y=above_base.astype(float),
         smoothing=smoothing,
-        **{name: np.zeros((rows, columns)) for name in SCALARS},
-        **{name: np.zeros((rows, 2, columns)) for name in VECTORS},
+        **{name: aligned_zeros((rows, columns)) for name in SCALARS},
+        **{name: aligned_zeros((rows, 2, columns)) for name in VECTORS},
     )

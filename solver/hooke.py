@@ -1,9 +1,9 @@
 """Hooke's law in rate form."""
 
-from solver._jit import point
+from solver._jit import inlined
 
 
-@point
+@inlined
 def elastic_increment(strain_xx, strain_yy, strain_xy, bulk, shear):
     """Return the plane strain stress increment ``(xx, yy, zz, xy)`` in Pa of a strain increment (tensor shear)."""
     lame = bulk - 2.0 * shear / 3.0
@@ -11,7 +11,7 @@ def elastic_increment(strain_xx, strain_yy, strain_xy, bulk, shear):
     return zz + 2.0 * shear * strain_xx, zz + 2.0 * shear * strain_yy, zz, 2.0 * shear * strain_xy
 
 
-@point
+@inlined
 def elastic_trial(stress, strain, bulk, shear):
     """Return the stress ``(xx, yy, zz, xy)`` in Pa after an elastic strain increment ``(xx, yy, xy)``."""
     xx, yy, zz, xy = stress

@@ -10,7 +10,8 @@ from solver.method import Method
 from solver.model import Model
 from solver.particles import Particles
 from solver.scheme import scheme_of
-from solver.step import advance, allocate_workspace
+from solver.sorting import fill_tiles, read_tiles
+from solver.step import allocate_workspace, take_steps
 from solver.timestep import stable_step
 
 LOCAL_DAMPING = 0.7  # share of the unbalanced force (Cundall); gone after release
@@ -77,9 +78,13 @@ def in_situ_state(model: Model, from_nothing: bool = False) -> Particles:
     dt = stable_step(min(model.courant, 0.5), model.cell_size, model.wave_speed, 0.0)
     unbalanced = np.inf
     steps = 0
+    tiles = fill_tiles(particles, grid, work.tiles)
     for _ in range(MOST_CHECKS):
+        tiles, taken = take_steps(
+            tiles, grid, work, model.laws, scheme, STANDARD_GRAVITY, 0.0, dt, STEPS_BETWEEN_CHECKS, steps == 0
+        )
+        read_tiles(tiles, particles)
         steps += STEPS_BETWEEN_CHECKS
-        taken = advance(particles, grid, work, model.laws, scheme, STANDARD_GRAVITY, 0.0, dt, STEPS_BETWEEN_CHECKS)
         if taken < STEPS_BETWEEN_CHECKS or not np.isfinite(observables.kinetic_energy(particles)):
             break
         unbalanced = unbalanced_share(grid, STANDARD_GRAVITY)

@@ -1,9 +1,9 @@
 """From the velocity gradient to strain, rotation and volume."""
 
-from solver._jit import point
+from solver._jit import inlined
 
 
-@point
+@inlined
 def rotate_stress(xx, yy, xy, rotation):
     """Return the in-plane stress ``(xx, yy, xy)`` in Pa, turned by the rotation increment ``W_xy dt``.
 
@@ -23,7 +23,7 @@ def rotate_stress(xx, yy, xy, rotation):
     return mean + turned, mean - turned, xy * cos_2 - difference * sin_2
 
 
-@point
+@inlined
 def volume_ratio(l_xx, l_xy, l_yx, l_yy):
     """Return ``det(1 + L dt)``, new volume over old, of the increment ``L dt`` of the displacement gradient."""
     return (1.0 + l_xx) * (1.0 + l_yy) - l_xy * l_yx

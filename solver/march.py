@@ -12,7 +12,8 @@ from solver.history import MarchEnd, MarchHistory, Moment, moment
 from solver.model import Model
 from solver.particles import Particles, copy_particles
 from solver.rest import RestBy, RestDetector, StandDetector
-from solver.step import Workspace, advance, allocate_workspace
+from solver.sorting import fill_tiles, read_tiles
+from solver.step import Workspace, allocate_workspace, take_steps
 from solver.timestep import even_steps, largest_courant, stable_step
 from solver.walls import Walls, reached_walls
 
@@ -44,6 +45,7 @@ class March:
         self.time = 0.0
         self.steps = 0
         self.reason = ""
+        self._tiles = fill_tiles(self.particles, self.grid, self.work.tiles)
         self._take_steps(0, 0.0)  # the grid shows the start
 
     @property
@@ -114,7 +116,11 @@ class March:
     def _take_steps(self, steps: int, dt: float) -> int:
         gravity, rate = self._gravity()
         model = self.model
-        return int(advance(self.particles, self.grid, self.work, model.laws, model.scheme, gravity, rate, dt, steps))
+        self._tiles, taken = take_steps(
+            self._tiles, self.grid, self.work, model.laws, model.scheme, gravity, rate, dt, steps, self.steps == 0
+        )
+        read_tiles(self._tiles, self.particles)
+        return int(taken)
 
     def _left_or_diverged(self) -> MarchEnd:
         if not (np.isfinite(self.particles.x).all() and np.isfinite(self.particles.y).all()):

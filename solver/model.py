@@ -8,7 +8,7 @@ from solver.internal_length import smoothing_weights
 from solver.laws.registry import Law
 from solver.materials import Material
 from solver.method import Method
-from solver.scheme import Scheme, scheme_of
+from solver.scheme import AnyScheme, scheme_of
 from solver.slide import PAPER, SlideCriteria
 from solver.surface import Surface
 
@@ -50,7 +50,7 @@ class Model(NamedTuple):
         return half_length_in_cells(self.method.basis, self.particles_per_cell)
 
     @property
-    def scheme(self) -> Scheme:
+    def scheme(self) -> AnyScheme:
         """The method as kernels take it, without damping."""
         return scheme_of(self.method, averages_plastic_strain=self.internal_length > 0.0)
 

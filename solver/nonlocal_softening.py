@@ -23,12 +23,12 @@ smoothed alike (``internal_length`` says how much), and their quotient is read b
 
 import numpy as np
 
-from solver._jit import kernel
+from solver._jit import sweep
 from solver.constants import LANE_COUNT
 from solver.lanes import load, store
 
 
-@kernel
+@sweep
 def smooth(sums, weights):
     """Convolve sums over cells with the filter along both axes, in place; beyond the grid there is nothing.
 
@@ -43,7 +43,8 @@ def smooth(sums, weights):
     margin = np.zeros(columns + 2 * reach)
     along = np.empty_like(sums)
     for row in range(rows):
-        margin[reach : reach + columns] = sums[row]
+        for column in range(columns):
+            margin[reach + column] = sums[row, column]
         for column in range(0, columns, LANE_COUNT):
             total = weights[0] * load(margin, column)
             for k in range(1, weights.size):

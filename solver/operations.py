@@ -1,15 +1,16 @@
 """The operations of a time step between the transfers, on all nodes or on a block of eight particles (see ``step``)."""
 
+from typing import NamedTuple
+
 from solver._jit import inlined
 from solver.constants import LANE_COUNT
 from solver.grid import SMALLEST_MASS
 from solver.lanes import bits, load, splat, store, where
+from solver.leavers import is_in_base_cell, take_out
 from solver.materials import deformed
 from solver.tiles import (
     MOVED_X,
     MOVED_Y,
-    PLASTIC_INCREMENT,
-    PLASTIC_STRAIN,
     STRESS_XX,
     STRESS_XY,
     STRESS_YY,
@@ -20,7 +21,6 @@ from solver.tiles import (
     X,
     Y,
     get,
-    note_leavers,
     put,
 )
 
@@ -41,8 +41,6 @@ def clear_state(grid):
                 store(grid.momentum, x + grid.columns, nothing)
                 store(grid.force, x, nothing)
                 store(grid.force, x + grid.columns, nothing)
-                store(grid.remapped, x, nothing)
-                store(grid.remapped, x + grid.columns, nothing)
 
 
 @inlined
@@ -52,7 +50,8 @@ def solve_momentum(grid, gravity, damping, dt):
     Parameters
     ----------
     grid : Grid
-        Its ``acceleration`` and ``velocity`` are set where eight neighbours are not all empty.
+        Its ``acceleration`` and ``velocity`` are set where eight neighbours are not all empty, and the ``remapped``
+        momentum emptied.
     gravity : float
         Downward, in m/s2.
     damping : float
@@ -65,11 +64,11 @@ def solve_momentum(grid, gravity, damping, dt):
             node = row * grid.columns + column
             x = node + row * grid.columns
             mass = load(grid.mass, node)
-            has_mass = mass > SMALLEST_MASS
-            if bits(has_mass):
+            if bits(mass > 0.0):
+                has_mass = mass > SMALLEST_MASS
                 inverse = where(has_mass, 1.0 / mass, 0.0)
                 weight = where(has_mass, splat(gravity), 0.0)
-                _solve(grid, x, load(grid.free_x, node), inverse, 0.0 * weight, damping, dt)
+                _solve(grid, x, load(grid.free_x, node), inverse, splat(0.0), damping, dt)
                 _solve(grid, x + grid.columns, load(grid.free_y, node), inverse, weight, damping, dt)
 
 
@@ -81,6 +80,7 @@ def _solve(grid, at, free, inverse, gravity, damping, dt):
     a = a - damping * abs(a) * sign(v)
     store(grid.acceleration, at, a * free)
     store(grid.velocity, at, (v + a * dt) * free)
+    store(grid.remapped, at, splat(0.0))
 
 
 @inlined
@@ -136,13 +136,13 @@ def accelerate_block(tiles, block, particles, acceleration, velocity, flip_fract
 
 
 @inlined
-def deform_block(tiles, block, particles, increment, laws, dt, keeps_plastic_strain):
-    """Update stress, plastic strain and volume of a block of particles; return the work of the stresses (J/m).
+def deform_block(tiles, block, particles, increment, laws, dt):
+    """Update stress and volume of a block of particles; return what became of them (``Deformed``).
 
     Parameters
     ----------
     tiles : Tiles
-        Modified.
+        Modified, but for the plastic strain.
     block : int
     particles : Particles
         Its lanes.
@@ -152,8 +152,6 @@ def deform_block(tiles, block, particles, increment, laws, dt, keeps_plastic_str
         Parameters of the law of each material.
     dt : float
         In s.
-    keeps_plastic_strain : bool
-        The increment of plastic strain is noted, not added: it is to be averaged.
     """
     new = deformed(particles, increment, laws, dt)
     put(tiles, block, STRESS_XX, new.stress_xx)
@@ -161,21 +159,26 @@ def deform_block(tiles, block, particles, increment, laws, dt, keeps_plastic_str
     put(tiles, block, STRESS_ZZ, new.stress_zz)
     put(tiles, block, STRESS_XY, new.stress_xy)
     put(tiles, block, VOLUME, new.volume)
-    if keeps_plastic_strain:
-        put(tiles, block, PLASTIC_INCREMENT, new.plastic_strain - particles.plastic_strain)
-    else:
-        put(tiles, block, PLASTIC_STRAIN, new.plastic_strain)
-    return new.work
+    return new
+
+
+class Moved(NamedTuple):
+    """Particles after they have moved; lanes."""
+
+    x: float  # m
+    y: float
+    stays: bool  # in its base cell
+    fall: float  # kg m, loss of height times mass
 
 
 @inlined
 def move_block(tiles, block, particles, row, column, grid):
-    """Put a block of particles at their new places; return their loss of height times mass in kg, lane by lane.
+    """Put a block of particles at their new places; those that leave their base cells are taken out.
 
     Parameters
     ----------
     tiles : Tiles
-        Modified; particles that leave their base cells are noted.
+        Modified.
     block : int
     particles : Particles
         Its lanes.
@@ -186,5 +189,6 @@ def move_block(tiles, block, particles, row, column, grid):
     x, y = get(tiles, block, MOVED_X), get(tiles, block, MOVED_Y)
     put(tiles, block, X, x)
     put(tiles, block, Y, y)
-    note_leavers(tiles, block, x, y, particles.mass > 0.0, row, column, grid)
-    return particles.mass * (particles.y - y)
+    stays = is_in_base_cell(x, y, row, column, grid)
+    take_out(tiles, block, particles.mass > 0.0, stays, row, column, grid)
+    return Moved(x, y, stays, particles.mass * (particles.y - y))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solver._jit import kernel, point
+from solver._jit import inlined, kernel
 
 _LARGEST_EXPONENT = 32.0  # exp(-32) = 1e-14: fully residual
 _SQUARINGS = 8
@@ -33,32 +33,34 @@ class Strength(NamedTuple):
     friction_angle_residual: float  # rad
 
 
-@point
+@inlined
 def exp_decay(x):
     """Return ``exp(-x)`` for ``x >= 0``: Taylor series of ``exp(-x / 256)``, squared eight times."""
-    y = -min(x, _LARGEST_EXPONENT) / 2**_SQUARINGS
-    e = 1 + y * (1 + y / 2 * (1 + y / 3 * (1 + y / 4 * (1 + y / 5 * (1 + y / 6 * (1 + y / 7 * (1 + y / 8)))))))
+    y = min(x, _LARGEST_EXPONENT) * (-1 / 2**_SQUARINGS)
+    tail = 1 / 120 + y * (1 / 720 + y * (1 / 5040 + y * (1 / 40320)))
+    e = 1 + y * (1 + y * (1 / 2 + y * (1 / 6 + y * (1 / 24 + y * tail))))
     for _ in range(_SQUARINGS):
         e *= e
     return e
 
 
-@point
+@inlined
 def sine(x):
     """Return ``sin(x)`` for ``0 <= x <= pi / 2`` by its Taylor series."""
     z = x * x
-    return x * (1 - z / 6 * (1 - z / 20 * (1 - z / 42 * (1 - z / 72 * (1 - z / 110 * (1 - z / 156 * (1 - z / 210)))))))
+    tail = 1 / 362880 + z * (-1 / 39916800 + z * (1 / 6227020800 - z * (1 / 1307674368000)))
+    return x * (1 + z * (-1 / 6 + z * (1 / 120 + z * (-1 / 5040 + z * tail))))
 
 
-@point
+@inlined
 def cosine(x):
     """Return ``cos(x)`` for ``0 <= x <= pi / 2`` by its Taylor series."""
     z = x * x
-    tail = 1 - z / 132 * (1 - z / 182 * (1 - z / 240))
-    return 1 - z / 2 * (1 - z / 12 * (1 - z / 30 * (1 - z / 56 * (1 - z / 90 * tail))))
+    tail = 1 / 479001600 + z * (-1 / 87178291200 + z * (1 / 20922789888000))
+    return 1 + z * (-1 / 2 + z * (1 / 24 + z * (-1 / 720 + z * (1 / 40320 + z * (-1 / 3628800 + z * tail)))))
 
 
-@point
+@inlined
 def remaining_share(plastic_strain, softening):
     """Return the share of the drop from peak to residual that is left: ``exp(-rate eps)`` or ``1 - rate eps >= 0``."""
     x = softening.rate * plastic_strain
@@ -76,13 +78,13 @@ def remaining_shares(plastic_strain, softening):
     return shares
 
 
-@point
+@inlined
 def softened(peak, residual, share):
     """Return what is left of a strength when ``share`` of its drop from peak to residual is left."""
     return residual + (peak - residual) * share
 
 
-@point
+@inlined
 def softened_strength(plastic_strain, strength, softening):
     """Return ``(c cos(phi), sin(phi))`` after softening of both from peak towards residual.
 

@@ -1,103 +1,116 @@
-"""Operation 1 of a step: what particles bring to their nodes, and the means over cells that have a part in it.
+"""Operation 1 of a step: what particles bring to their nodes.
 
 Arguments are those of ``step``.
 """
 
-from solver._jit import inlined, kernel
-from solver.cells import add_to_pool, average, deposit_pool, no_pool, read, shares_of, volumes_in
-from solver.mean_dilation import NO_VOLUME
-from solver.nonlocal_softening import smooth
+from typing import Any
+
+from solver._jit import chosen_by_type, inlined, sweep
+from solver.cells import read, shares_of
+from solver.lanes import lane_numbers, where
+from solver.leavers import NOWHERE, settle_next
 from solver.operations import clear_state
-from solver.scheme import CELL_AVERAGE
-from solver.tiles import PLASTIC_INCREMENT, PLASTIC_STRAIN, get, place_of, put, take
-from solver.transfer import add_state, deposit_state, load_of, no_state, weights_of
+from solver.pool import own_mean_stress, pool_each
+from solver.scheme import CellScheme
+from solver.tiles import LEAVERS, PLASTIC_STRAIN, place_of, put, take
+from solver.transfer import Load, add_state, deposit_state, load_of, no_state, weights_of
 
 
 @inlined
-def reads_cells(scheme):
-    """Return whether particles read means over cells."""
-    return scheme.locking == CELL_AVERAGE or scheme.averages_plastic_strain
-
-
-@inlined
-def own_mean_stress(particles):
-    """Return the in-plane mean stress of particles in Pa."""
-    return 0.5 * (particles.stress_xx + particles.stress_yy)
-
-
-@inlined
-def spread_tile(tiles, tile, grid, scheme):
-    """Operation 1 for a tile; with means over cells, which it reads, in the internal force and the plastic strain."""
+def spread_tile(tiles, tile, grid):
+    """Operation 1 for a tile."""
     row, column = place_of(tile, grid)
-    low = middle = high = no_state()
+    sums = no_state()
     block = tiles.first[tile]
     while block >= 0:
         p = take(tiles, block)
         w = weights_of(p.x, p.y, row, column, grid)
-        mean_stress = own_mean_stress(p)
-        if reads_cells(scheme):
-            shares = shares_of(p.x, p.y, row, column, grid)
-            if scheme.locking == CELL_AVERAGE:
-                mean_stress = read(grid.cell_pressure, row, column, shares, grid)
-            if scheme.averages_plastic_strain:
-                increment = read(grid.cell_plastic_strain, row, column, shares, grid)
-                put(tiles, block, PLASTIC_STRAIN, p.plastic_strain + increment)
-        brought = load_of(p, mean_stress)
-        low = add_state(low, w, 0, brought)
-        middle = add_state(middle, w, 1, brought)
-        high = add_state(high, w, 2, brought)
+        sums = add_state(sums, w, load_of(p, own_mean_stress(p)))
         block = tiles.following[block]
-    deposit_state(grid, row, column, low)
-    deposit_state(grid, row + 1, column, middle)
-    deposit_state(grid, row + 2, column, high)
+    deposit_state(grid, row, column, sums)
 
 
 @inlined
-def pool_tile(tiles, tile, grid):
-    """Collect volume, pressure and increment of plastic strain of the cells from a tile."""
+def spread_tile_of_cells(tiles, tile, grid, scheme):
+    """Operation 1 for a tile that reads the means over cells, for the internal force and of the plastic strain."""
     row, column = place_of(tile, grid)
-    volume = pressure = strain = no_pool()
+    sums = no_state()
     block = tiles.first[tile]
     while block >= 0:
         p = take(tiles, block)
-        volumes = volumes_in(shares_of(p.x, p.y, row, column, grid), p.volume)
-        volume = add_to_pool(volume, volumes, 1.0)
-        pressure = add_to_pool(pressure, volumes, own_mean_stress(p))
-        strain = add_to_pool(strain, volumes, get(tiles, block, PLASTIC_INCREMENT))
+        w = weights_of(p.x, p.y, row, column, grid)
+        shares = shares_of(p.x, p.y, row, column, grid)
+        mean_stress = own_mean_stress(p)
+        if scheme.averages_dilation:
+            mean_stress = read(grid.cell_pressure, row, column, shares, grid)
+        if scheme.averages_plastic_strain:
+            increment = read(grid.cell_plastic_strain, row, column, shares, grid)
+            put(tiles, block, PLASTIC_STRAIN, p.plastic_strain + increment)
+        sums = add_state(sums, w, load_of(p, mean_stress))
         block = tiles.following[block]
-    deposit_pool(grid.cell_volume, row, column, volume, grid)
-    deposit_pool(grid.cell_pressure, row, column, pressure, grid)
-    deposit_pool(grid.cell_plastic_strain, row, column, strain, grid)
+    deposit_state(grid, row, column, sums)
 
 
-@kernel
-def pool_all(tiles, grid, scheme):
-    """Find the means over cells: of the pressure, and of the increments of plastic strain."""
-    grid.cell_volume[:] = 0.0
-    grid.cell_pressure[:] = 0.0
-    grid.cell_plastic_strain[:] = 0.0
+@sweep
+def spread_each(tiles, grid):
+    """Operation 1 for all particles."""
+    clear_state(grid)
     for tile in range(tiles.first.size):
         if tiles.first[tile] >= 0:
-            pool_tile(tiles, tile, grid)
-    average(grid.cell_pressure, grid.cell_volume, NO_VOLUME)
-    if scheme.averages_plastic_strain:
-        smooth(grid.cell_volume, grid.smoothing)
-        smooth(grid.cell_plastic_strain, grid.smoothing)
-        average(grid.cell_plastic_strain, grid.cell_volume, 0.0)
+            spread_tile(tiles, tile, grid)
 
 
-@kernel
-def spread_each(tiles, grid, scheme):
+@sweep
+def spread_each_of_cells(tiles, grid, scheme):
     """Operation 1 for all particles, with the means that the cells have."""
     clear_state(grid)
     for tile in range(tiles.first.size):
         if tiles.first[tile] >= 0:
-            spread_tile(tiles, tile, grid, scheme)
+            spread_tile_of_cells(tiles, tile, grid, scheme)
 
 
-@kernel
 def spread_all(tiles, grid, scheme):
-    """Operation 1 for all particles."""
-    if reads_cells(scheme):
-        pool_all(tiles, grid, scheme)
-    spread_each(tiles, grid, scheme)
+    """Operation 1 for particles as they are."""
+    raise NotImplementedError("A kernel's own.")
+
+
+@chosen_by_type(spread_all)
+def _spread_all(tiles: Any, grid: Any, scheme: Any) -> Any:
+    def with_cells(tiles, grid, scheme):
+        pool_each(tiles, grid, scheme)
+        spread_each_of_cells(tiles, grid, scheme)
+
+    def without(tiles, grid, scheme):
+        spread_each(tiles, grid)
+
+    return with_cells if scheme.instance_class is CellScheme else without
+
+
+@inlined
+def spread_lane(tiles, block, lane, grid):
+    """Operation 1 for one particle, which has been put into a lane of a block."""
+    row, column = place_of(tiles.tile[block], grid)
+    p = take(tiles, block)
+    is_it = lane_numbers() == float(lane)
+    brought = load_of(p, own_mean_stress(p))
+    alone = Load(
+        where(is_it, brought.mass, 0.0),
+        where(is_it, brought.momentum_x, 0.0),
+        where(is_it, brought.momentum_y, 0.0),
+        where(is_it, brought.xx, 0.0),
+        where(is_it, brought.yy, 0.0),
+        where(is_it, brought.xy, 0.0),
+    )
+    w = weights_of(p.x, p.y, row, column, grid)
+    deposit_state(grid, row, column, add_state(no_state(), w, alone))
+
+
+@sweep
+def settle_and_spread(tiles, grid):
+    """Put the leavers into their new tiles, with operation 1; return whether all are on the grid."""
+    while tiles.counts[LEAVERS] > 0:
+        block, lane = settle_next(tiles, grid)
+        if block == NOWHERE:
+            return False
+        spread_lane(tiles, block, lane, grid)
+    return True

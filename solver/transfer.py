@@ -98,22 +98,33 @@ class Momentum(NamedTuple):
 
 @inlined
 def no_momentum():
-    """Return sums that are zero."""
-    return Momentum(nothing(), nothing())
+    """Return sums of 3 x 3 nodes, by rows, that are zero."""
+    nothing_yet = Momentum(nothing(), nothing())
+    return nothing_yet, nothing_yet, nothing_yet
 
 
 @inlined
-def add_momentum(sums, w, j, momentum_x, momentum_y):
-    """Return the sums of the ``j``-th row of nodes with ``S_ip m_p v_p`` added."""
-    return Momentum(plus(sums.x, w.sx, w.sy[j] * momentum_x), plus(sums.y, w.sx, w.sy[j] * momentum_y))
+def add_momentum(sums, w, x, y):
+    """Return the sums of 3 x 3 nodes with the momentum (kg/s) of particles added, ``S_ip m_p v_p``."""
+    low, middle, high = sums
+    return (
+        Momentum(plus(low.x, w.sx, w.sy[0] * x), plus(low.y, w.sx, w.sy[0] * y)),
+        Momentum(plus(middle.x, w.sx, w.sy[1] * x), plus(middle.y, w.sx, w.sy[1] * y)),
+        Momentum(plus(high.x, w.sx, w.sy[2] * x), plus(high.y, w.sx, w.sy[2] * y)),
+    )
 
 
 @inlined
 def deposit_momentum(field, row, column, sums, grid):
-    """Add the sums of a row of nodes to a vector field ``(rows, 2, columns)``."""
-    start = 2 * row * grid.columns + column
-    deposit(field, start, sums.x)
-    deposit(field, start + grid.columns, sums.y)
+    """Add the sums of 3 x 3 nodes to a vector field ``(rows, 2, columns)``."""
+    low, middle, high = sums
+    start, stride = 2 * row * grid.columns + column, 2 * grid.columns
+    deposit(field, start, low.x)
+    deposit(field, start + grid.columns, low.y)
+    deposit(field, start + stride, middle.x)
+    deposit(field, start + stride + grid.columns, middle.y)
+    deposit(field, start + 2 * stride, high.x)
+    deposit(field, start + 2 * stride + grid.columns, high.y)
 
 
 class State(NamedTuple):
@@ -126,8 +137,9 @@ class State(NamedTuple):
 
 @inlined
 def no_state():
-    """Return sums that are zero."""
-    return State(nothing(), no_momentum(), no_momentum())
+    """Return sums of 3 x 3 nodes, by rows, that are zero."""
+    nothing_yet = State(nothing(), Momentum(nothing(), nothing()), Momentum(nothing(), nothing()))
+    return nothing_yet, nothing_yet, nothing_yet
 
 
 class Load(NamedTuple):
@@ -156,7 +168,7 @@ def load_of(particles, mean_stress):
 
 
 @inlined
-def add_state(sums, w, j, brought):
+def add_load(sums, w, j, brought):
     """Return the sums of the ``j``-th row of nodes with what particles bring.
 
     ``m_i += S_ip m_p``, ``(mv)_i += S_ip m_p v_p``, ``f_i -= V_p sigma_p . grad S_ip``.
@@ -164,7 +176,9 @@ def add_state(sums, w, j, brought):
     s, g = w.sy[j], w.gy[j]
     return State(
         plus(sums.mass, w.sx, s * brought.mass),
-        add_momentum(sums.momentum, w, j, brought.momentum_x, brought.momentum_y),
+        Momentum(
+            plus(sums.momentum.x, w.sx, s * brought.momentum_x), plus(sums.momentum.y, w.sx, s * brought.momentum_y)
+        ),
         Momentum(
             plus(plus(sums.force.x, w.gx, s * brought.xx), w.sx, g * brought.xy),
             plus(plus(sums.force.y, w.gx, s * brought.xy), w.sx, g * brought.yy),
@@ -173,8 +187,30 @@ def add_state(sums, w, j, brought):
 
 
 @inlined
-def deposit_state(grid, row, column, sums):
+def add_state(sums, w, brought):
+    """Return the sums of 3 x 3 nodes with what particles bring."""
+    return (
+        add_load(sums[0], w, 0, brought),
+        add_load(sums[1], w, 1, brought),
+        add_load(sums[2], w, 2, brought),
+    )
+
+
+@inlined
+def deposit_row(grid, row, column, sums):
     """Add the sums of a row of nodes to the grid."""
+    start = 2 * row * grid.columns + column
     deposit(grid.mass, row * grid.columns + column, sums.mass)
-    deposit_momentum(grid.momentum, row, column, sums.momentum, grid)
-    deposit_momentum(grid.force, row, column, sums.force, grid)
+    deposit(grid.momentum, start, sums.momentum.x)
+    deposit(grid.momentum, start + grid.columns, sums.momentum.y)
+    deposit(grid.force, start, sums.force.x)
+    deposit(grid.force, start + grid.columns, sums.force.y)
+
+
+@inlined
+def deposit_state(grid, row, column, sums):
+    """Add the sums of 3 x 3 nodes to the grid."""
+    low, middle, high = sums
+    deposit_row(grid, row, column, low)
+    deposit_row(grid, row + 1, column, middle)
+    deposit_row(grid, row + 2, column, high)

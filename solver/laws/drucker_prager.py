@@ -26,7 +26,7 @@ hydrostatic map.
 import math
 from typing import NamedTuple
 
-from solver._jit import point
+from solver._jit import inlined
 from solver.elastic import bulk_modulus, shear_modulus
 from solver.hooke import elastic_trial
 from solver.lanes import where
@@ -53,13 +53,13 @@ def drucker_prager(constants: Constants) -> DruckerPrager:
     return DruckerPrager(bulk_modulus(*elasticity), shear_modulus(*elasticity), flow_slope, constants.softening)
 
 
-@point
+@inlined
 def plane_strain_match(sin_phi, flow_slope):
     """Return ``D``, the ratio of ``eta`` to ``sin(phi)`` and of ``xi`` to ``cos(phi)``."""
     return 1.0 / (math.sqrt(1.0 - flow_slope * flow_slope / 3.0) + flow_slope * sin_phi / 3.0)
 
 
-@point
+@inlined
 def return_stress(stress, c_cos_phi, sin_phi, law):
     """Return ``(xx, yy, zz, xy, plastic strain increment)`` for a trial stress; stresses in Pa."""
     xx, yy, zz, xy = stress

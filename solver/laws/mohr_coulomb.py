@@ -15,12 +15,12 @@ one of eight particles needs them.
 import math
 from typing import NamedTuple
 
-from solver._jit import point
+from solver._jit import inlined
 from solver.elastic import bulk_modulus, shear_modulus
 from solver.hooke import elastic_trial
 from solver.lanes import anywhere, where
 from solver.laws.registry import Constants, constitutive_law
-from solver.principal import equivalent_plastic_strain, principal_stresses, relaxed
+from solver.principal import SMALLEST_RADIUS, equivalent_plastic_strain, in_plane, principal_stresses, relaxed
 from solver.softening import Softening, softened_strength
 
 _TINY = 1e-30
@@ -43,13 +43,13 @@ def mohr_coulomb(constants: Constants) -> MohrCoulomb:
     )
 
 
-@point
+@inlined
 def yield_function(s1, s3, c_cos_phi, sin_phi):
     """Return ``f`` in Pa for the largest and the smallest principal stress."""
     return (s1 - s3) + (s1 + s3) * sin_phi - 2.0 * c_cos_phi
 
 
-@point
+@inlined
 def flow_of(law):
     """Return ``D b = (rise, transverse, -fall)`` in Pa: flow on the plane drops the stress by ``dgamma D b``."""
     G, sin_psi = law.shear_modulus, law.sin_dilation
@@ -57,7 +57,7 @@ def flow_of(law):
     return 2.0 * G * (1.0 + sin_psi) + transverse, transverse, 2.0 * G * (1.0 - sin_psi) - transverse
 
 
-@point
+@inlined
 def stiffness_of_plane(sin_phi, law):
     """Return what ``f`` falls by for a unit of flow on its plane, and the part of it from the change of volume (Pa)."""
     _, transverse, _ = flow_of(law)
@@ -65,7 +65,7 @@ def stiffness_of_plane(sin_phi, law):
     return 4.0 * law.shear_modulus * (1.0 + sin_phi * law.sin_dilation) + coupling, coupling
 
 
-@point
+@inlined
 def return_to_edge(s1, s2, s3, is_upper, c_cos_phi, sin_phi, law):
     """Return the stress on the edge ``s1 = s2`` where ``is_upper``, else ``s2 = s3``, or at the apex beyond its end.
 
@@ -92,15 +92,16 @@ def return_to_edge(s1, s2, s3, is_upper, c_cos_phi, sin_phi, law):
     return where(is_apex, apex, new_1), where(is_apex, apex, where(is_upper, new_1, new_3)), where(is_apex, apex, new_3)
 
 
-@point
-def drops_in_return(s1, s2, s3, c_cos_phi, sin_phi, law):
+@inlined
+def drops_in_return(s1, s2, s3, inverse_stiffness, c_cos_phi, sin_phi, law):
     """Return by how much the trial ``s1 >= s2 >= s3`` (Pa) drops, and the equivalent plastic strain of the return.
 
     The plane is tried first: for most that yield it is the right one, and all of them flow in its one direction.
+    ``inverse_stiffness`` (1/Pa) is that of the plane.
     """
     rise, transverse, fall = flow_of(law)
     f = yield_function(s1, s3, c_cos_phi, sin_phi)
-    multiplier = max(f, 0.0) / stiffness_of_plane(sin_phi, law)[0]
+    multiplier = max(f, 0.0) * inverse_stiffness
     drop_1, drop_2, drop_3 = multiplier * rise, multiplier * transverse, -(multiplier * fall)
     plastic_strain = multiplier * equivalent_plastic_strain(rise, transverse, -fall, law.shear_modulus)
     is_upper = s2 - drop_2 > s1 - drop_1  # beyond s1 = s2
@@ -118,12 +119,14 @@ def drops_in_return(s1, s2, s3, c_cos_phi, sin_phi, law):
     return drop_1, drop_2, drop_3, plastic_strain
 
 
-@point
+@inlined
 def return_stress(stress, c_cos_phi, sin_phi, law):
     """Return ``(xx, yy, zz, xy, plastic strain increment)`` for a trial stress; stresses in Pa."""
     s1, s2, s3 = principal_stresses(stress)
-    drop_1, drop_2, drop_3, plastic_strain = drops_in_return(s1, s2, s3, c_cos_phi, sin_phi, law)
-    xx, yy, zz, xy = relaxed(stress, drop_1, drop_2, drop_3)
+    stiffness, radius = stiffness_of_plane(sin_phi, law)[0], max(in_plane(stress)[2], SMALLEST_RADIUS)
+    inverse = 1.0 / (stiffness * radius)  # of both at once: a division takes as long as ten products
+    drop_1, drop_2, drop_3, plastic_strain = drops_in_return(s1, s2, s3, inverse * radius, c_cos_phi, sin_phi, law)
+    xx, yy, zz, xy = relaxed(stress, drop_1, drop_2, drop_3, inverse * stiffness)
     return xx, yy, zz, xy, plastic_strain
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
-from solver._jit import chosen_by_type, point
+from solver._jit import chosen_by_type, inlined
 from solver.softening import Softening
 
 
@@ -51,7 +51,7 @@ def constitutive_law(name: str, parameters: type, make: Callable[[Constants], An
 
     def enter(function: Any) -> Any:
         _MAKERS[name] = make
-        _POINT_LAWS[parameters] = point(function)
+        _POINT_LAWS[parameters] = inlined(function)
         return function
 
     return enter

@@ -14,12 +14,12 @@ to an edge of the prism:
 
 from typing import NamedTuple
 
-from solver._jit import point
+from solver._jit import inlined
 from solver.elastic import bulk_modulus, shear_modulus
 from solver.hooke import elastic_trial
 from solver.lanes import where
 from solver.laws.registry import Constants, constitutive_law
-from solver.principal import equivalent_plastic_strain, principal_stresses, relaxed
+from solver.principal import SMALLEST_RADIUS, equivalent_plastic_strain, in_plane, principal_stresses, relaxed
 from solver.softening import Softening, remaining_share, softened
 
 
@@ -37,7 +37,7 @@ def tresca(constants: Constants) -> Tresca:
     return Tresca(bulk_modulus(*elasticity), shear_modulus(*elasticity), constants.softening)
 
 
-@point
+@inlined
 def return_mapping(s1, s2, s3, strength):
     """Return the principal stresses on or inside the prism of ``strength`` (Pa) for the trial ``s1 >= s2 >= s3``."""
     excess = max((s1 - s3) - 2.0 * strength, 0.0)
@@ -66,6 +66,6 @@ def update_tresca(law, stress, strain, plastic_strain, strength, dt):
     s_u = softened(strength.cohesion, strength.cohesion_residual, share)
     s1, s2, s3 = principal_stresses(trial)
     n1, n2, n3 = return_mapping(s1, s2, s3, s_u)
-    xx, yy, zz, xy = relaxed(trial, s1 - n1, s2 - n2, s3 - n3)
+    xx, yy, zz, xy = relaxed(trial, s1 - n1, s2 - n2, s3 - n3, 1.0 / max(in_plane(trial)[2], SMALLEST_RADIUS))
     increment = equivalent_plastic_strain(s1 - n1, s2 - n2, s3 - n3, law.shear_modulus)
     return xx, yy, zz, xy, plastic_strain + increment

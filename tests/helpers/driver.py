@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
+from parts_of_a_step import accelerate, begin, deform, solve
 
 from solver._jit import kernel
 from solver.basis import allocate_stencil, evaluate_stencil
@@ -10,12 +11,11 @@ from solver.constants import LANE_COUNT
 from solver.grid import NO_SMOOTHING, allocate_grid
 from solver.laws.mohr_coulomb import mohr_coulomb
 from solver.laws.registry import Constants
-from solver.operations import solve_momentum
 from solver.scheme import STRESS_UPDATES, Scheme
 from solver.softening import NO_SOFTENING
-from solver.spread import spread_all
-from solver.step import accelerate, allocate_workspace, deform
-from solver.tiles import MASS, MOVED_X, USED, empty_tiles, fill_tiles
+from solver.sorting import read_tiles
+from solver.step import allocate_workspace
+from solver.tiles import MASS, MOVED_X, USED
 
 UGIMP, B_SPLINE, LINEAR = 0.25, 0.5, 1e-6  # half lengths in cells, at four particles a cell
 SCHEMES = {name: Scheme(number, 1.0, 0.0) for name, number in STRESS_UPDATES.items()}
@@ -113,25 +113,12 @@ def add_body_force(particles, grid, stencil, acceleration_x, acceleration_y):
 
 
 @kernel
-def solve(grid, gravity, damping, dt):
-    """Operation 2, for a loop in Python."""
-    solve_momentum(grid, gravity, damping, dt)
-
-
-@kernel
 def wrap_around(tiles, width):
     """Let particles that move beyond a side come back at the other, ``width`` m away."""
     for block in range(tiles.counts[USED]):
         for lane in range(LANE_COUNT):
             if tiles.blocks[block, MASS, lane] > 0.0:
                 tiles.blocks[block, MOVED_X, lane] %= width
-
-
-def begin(particles, grid, work, scheme):
-    """Return the tiles of particles that have spread their state to the grid: operation 1 of the first step."""
-    tiles = fill_tiles(particles, grid, work.tiles)
-    spread_all(tiles, grid, scheme)
-    return tiles
 
 
 def march(particles, grid, soil, scheme, dt, steps, body_force, observe):
@@ -143,5 +130,5 @@ def march(particles, grid, soil, scheme, dt, steps, body_force, observe):
         solve(grid, 0.0, scheme.damping, dt)
         assert accelerate(tiles, grid, work, scheme, 0.0, dt)
         assert deform(tiles, grid, work, (soil,), scheme, 0.0, dt)
-        empty_tiles(tiles, particles)
+        read_tiles(tiles, particles)
         observe((step + 1) * dt)

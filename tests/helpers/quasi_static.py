@@ -11,6 +11,7 @@ import numpy as np
 from solver import observables
 from solver._jit import kernel
 from solver.constants import STANDARD_GRAVITY
+from solver.deformation import deform
 from solver.filling import ground_of
 from solver.grid import PADDING, SMALLEST_MASS
 from solver.in_situ import LOCAL_DAMPING, in_situ_state, unbalanced_share
@@ -22,10 +23,10 @@ from solver.operations import solve_momentum
 from solver.particles import copy_particles
 from solver.scheme import scheme_of
 from solver.softening import NO_SOFTENING
+from solver.sorting import fill_tiles, read_tiles, sort_if_due
 from solver.spread import spread_all
-from solver.step import accelerate, advance, allocate_workspace, deform
+from solver.step import accelerate, advance, allocate_workspace
 from solver.surface import Surface
-from solver.tiles import empty_tiles, fill_tiles, sort_if_due
 from solver.timestep import stable_step
 
 PRANDTL = 2.0 + math.pi  # exact limit of a strip load over the cohesion, on Tresca ground
@@ -75,15 +76,15 @@ def push(particles, grid, work, laws, scheme, footing, velocity, dt, steps):
     force = 0.0
     tiles = fill_tiles(particles, grid, work.tiles)
     spread_all(tiles, grid, scheme)
-    for step in range(steps):
-        tiles = sort_if_due(tiles, step, particles, grid, work.tiles)
+    for _ in range(steps):
+        tiles = sort_if_due(tiles, grid)
         solve_momentum(grid, 0.0, scheme.damping, dt)
         force += prescribe(grid, footing, velocity, dt)
         accelerate(tiles, grid, work, scheme, 0.0, dt)
         for row, i in footing:
             grid.remapped[row, :, i] = grid.velocity[row, :, i]
-        deform(tiles, grid, work, laws, scheme, 0.0, dt)
-    empty_tiles(tiles, particles)
+        deform(tiles, grid, work.ledger, laws, scheme, 0.0, dt)
+    read_tiles(tiles, particles)
     return force / steps
 
 

@@ -23,12 +23,13 @@ from shear_band import (
 )
 
 from solver._jit import kernel
+from solver.deformation import deform
 from solver.elastic import shear_modulus
 from solver.operations import INTERNAL_WORK, solve_momentum
 from solver.particles import allocate_particles
+from solver.sorting import fill_tiles, read_tiles, sort_if_due
 from solver.spread import spread_all
-from solver.step import accelerate, allocate_workspace, deform
-from solver.tiles import empty_tiles, fill_tiles, sort_if_due
+from solver.step import accelerate, allocate_workspace
 
 RADIUS, HELD, DRIVEN, RIM, SIZE = 6.0, 4.0, 8.0, 2.0, 22.0  # m: of the band, the rigid parts, the rims, the grid
 SLIP, SAMPLES = 0.8, 40  # m at RADIUS, where the drive is DRIVE, looks on the way
@@ -40,8 +41,8 @@ def turn(particles, grid, work, laws, scheme, is_held, is_driven, velocity, dt, 
     work.ledger[INTERNAL_WORK] = 0.0
     tiles = fill_tiles(particles, grid, work.tiles)
     spread_all(tiles, grid, scheme)
-    for step in range(steps):
-        tiles = sort_if_due(tiles, step, particles, grid, work.tiles)
+    for _ in range(steps):
+        tiles = sort_if_due(tiles, grid)
         solve_momentum(grid, 0.0, scheme.damping, dt)
         for j in range(grid.rows):
             for i in range(grid.columns):
@@ -53,8 +54,8 @@ def turn(particles, grid, work, laws, scheme, is_held, is_driven, velocity, dt, 
             for i in range(grid.columns):
                 if is_held[j, i] or is_driven[j, i]:
                     grid.remapped[j, :, i] = velocity[j, :, i]
-        deform(tiles, grid, work, laws, scheme, 0.0, dt)
-    empty_tiles(tiles, particles)
+        deform(tiles, grid, work.ledger, laws, scheme, 0.0, dt)
+    read_tiles(tiles, particles)
     return work.ledger[INTERNAL_WORK]
 
 

@@ -21,13 +21,14 @@ from shear_band import (
 )
 
 from solver._jit import inlined, kernel
+from solver.deformation import deform
 from solver.elastic import shear_modulus
 from solver.grid import PADDING, SMALLEST_MASS
 from solver.operations import INTERNAL_WORK, solve_momentum
 from solver.particles import allocate_particles
+from solver.sorting import fill_tiles, read_tiles, sort_if_due
 from solver.spread import spread_all
-from solver.step import accelerate, allocate_workspace, deform
-from solver.tiles import empty_tiles, fill_tiles, sort_if_due
+from solver.step import accelerate, allocate_workspace
 
 HEIGHT, RIM, COARSE_CELL, WIDTH_IN_CELLS = 10.0, 1.0, 0.5, 2  # m, m, m: rigid blocks at both ends are the walls
 RESIDUAL = 10e3  # Pa
@@ -59,8 +60,8 @@ def shear(particles, grid, work, laws, scheme, base, top, drive, dt, steps):
     width = grid.width
     tiles = fill_tiles(particles, grid, work.tiles)
     spread_all(tiles, grid, scheme)
-    for step in range(steps):
-        tiles = sort_if_due(tiles, step, particles, grid, work.tiles)
+    for _ in range(steps):
+        tiles = sort_if_due(tiles, grid)
         share_in_rows(grid.momentum, grid.mass)
         share_in_rows(grid.force, grid.mass)
         solve_momentum(grid, 0.0, scheme.damping, dt)
@@ -72,8 +73,8 @@ def shear(particles, grid, work, laws, scheme, base, top, drive, dt, steps):
         grid.remapped[:, 0] /= np.maximum(grid.mass, SMALLEST_MASS)
         hold(grid.remapped, base, top, drive)
         wrap_around(tiles, width)
-        deform(tiles, grid, work, laws, scheme, 0.0, dt)
-    empty_tiles(tiles, particles)
+        deform(tiles, grid, work.ledger, laws, scheme, 0.0, dt)
+    read_tiles(tiles, particles)
     return work.ledger[INTERNAL_WORK]
 
 

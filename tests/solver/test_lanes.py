@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pointwise import law_of
 
-from solver._jit import kernel, point
+from solver._jit import inlined, kernel
 from solver.constants import LANE_COUNT
 from solver.lanes import (
     anywhere,
@@ -26,7 +26,7 @@ from solver.laws.registry import law_names, update_stress
 from solver.softening import Strength
 
 
-@point
+@inlined
 def every_operation(a, b):
     """Return something that all operations and both branches have a part in."""
     value = math.sqrt(max(a * a + 1, b)) / 3 - (-min(a, 0.2))

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from parts_of_a_step import deform, pool_each, spread_all
 from small_slope import small_model, with_strength
 
 from solver import cells, mean_dilation
@@ -14,15 +15,15 @@ from solver.laws.registry import Constants
 from solver.march import MarchEnd, march_to_rest
 from solver.operations import INTERNAL_WORK
 from solver.particles import copy_particles
-from solver.scheme import LOCKING, STRESS_UPDATES, Scheme
+from solver.scheme import STRESS_UPDATES, CellScheme
 from solver.softening import NO_SOFTENING
-from solver.spread import pool_all, spread_all
-from solver.step import allocate_workspace, deform
-from solver.tiles import MASS, MOVED_X, MOVED_Y, NUMBER, X, Y, fill_tiles, get, place_of, put
+from solver.sorting import fill_tiles
+from solver.step import allocate_workspace
+from solver.tiles import MASS, MOVED_X, MOVED_Y, NUMBER, X, Y, get, place_of, put
 
 MODEL = small_model()
 CURED = MODEL._replace(method=MODEL.method._replace(locking="cell-average"))
-USL_CURED = Scheme(STRESS_UPDATES["usl"], 1.0, 0.0, LOCKING["cell-average"])
+USL_CURED = CellScheme(STRESS_UPDATES["usl"])
 SOFT = mohr_coulomb(Constants(1e-3, 0.0, 0.0, NO_SOFTENING))  # the stress stays what it is
 
 
@@ -60,7 +61,7 @@ def averaged(particles, pressure):
     stressed.stress_xx[:] = stressed.stress_yy[:] = pressure
     grid = CURED.allocate_grid()
     tiles = fill_tiles(stressed, grid, allocate_workspace(pressure.size).tiles)
-    pool_all(tiles, grid, USL_CURED)
+    pool_each(tiles, grid, USL_CURED)
     read_pressure(tiles, grid, means)
     return means
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from driver import MUSL
+from parts_of_a_step import spread_all
 from small_slope import small_model, with_strength
 
 from solver.filling import fill_ground
@@ -10,12 +10,13 @@ from solver.grid import allocate_grid
 from solver.in_situ import in_situ_state
 from solver.internal_length import BAND_THICKNESS, coarse_rate_factor, least_thickness, smoothing_weights
 from solver.march import march_to_rest
-from solver.spread import spread_all
+from solver.scheme import STRESS_UPDATES, CellScheme
+from solver.sorting import fill_tiles, read_tiles
 from solver.surface import Surface
-from solver.tiles import PLASTIC_INCREMENT, PLASTIC_STRAIN, allocate_tiles, empty_tiles, fill_tiles
+from solver.tiles import PLASTIC_INCREMENT, PLASTIC_STRAIN, allocate_tiles
 
 LENGTH = 1.0  # m
-AVERAGING = MUSL._replace(averages_plastic_strain=True)
+AVERAGING = CellScheme(STRESS_UPDATES["musl"], averages_dilation=False, averages_plastic_strain=True)
 LEVEL = Surface(np.array([0.0, 8.0]), np.array([8.0, 8.0]))
 
 
@@ -28,7 +29,7 @@ def averaged(cell, surface, plastic_strain_at):
     tiles.blocks[:, PLASTIC_INCREMENT] = tiles.blocks[:, PLASTIC_STRAIN]
     tiles.blocks[:, PLASTIC_STRAIN] = 0.0
     spread_all(tiles, grid, AVERAGING)
-    empty_tiles(tiles, particles)
+    read_tiles(tiles, particles)
     return particles
 
 

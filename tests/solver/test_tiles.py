@@ -2,25 +2,26 @@
 
 import numpy as np
 import pytest
+from parts_of_a_step import move, sorted_tiles
 
 from solver.grid import allocate_grid
 from solver.particles import UNYIELDING, allocate_particles, copy_particles
+from solver.sorting import fill_tiles, read_tiles
+from solver.step import allocate_workspace
 from solver.tiles import (
     COHESION,
     FIELDS,
     LEAVERS,
     MASS,
+    MOVED_X,
+    MOVED_Y,
     NUMBER,
     USED,
     VOLUME,
     X,
     Y,
     allocate_tiles,
-    change_tiles,
-    empty_tiles,
-    fill_tiles,
     place_of,
-    sort_again,
     tiles_in_row,
 )
 
@@ -70,7 +71,7 @@ def test_every_particle_is_in_the_lane_of_its_base_cell(particles, grid):
 def test_an_empty_lane_weighs_nothing_and_stands_in_its_own_cell(particles, grid):
     tiles = fill_tiles(particles, grid, allocate_tiles(N))
     for tile, block in enumerate(tiles.first):
-        row, column = place_of.py_func(tile, grid)
+        row, column = place_of(tile, grid)
         while block >= 0:
             for lane in np.flatnonzero(tiles.blocks[block, MASS] == 0.0):
                 at = tiles.blocks[block, :, lane]
@@ -83,31 +84,24 @@ def test_an_empty_lane_weighs_nothing_and_stands_in_its_own_cell(particles, grid
 
 
 def test_out_comes_what_went_in(particles, grid):
-    before, store = copy_particles(particles), allocate_tiles(N)
-    tiles = fill_tiles(particles, grid, store)
+    before = copy_particles(particles)
+    tiles = fill_tiles(particles, grid, allocate_tiles(N))
     for name in ("x", "velocity_x", "stress_xy", "plastic_strain"):
         getattr(particles, name)[:] = -1.0
-    empty_tiles(tiles, particles)
+    read_tiles(tiles, particles)
     for found, expected in zip(particles, before, strict=True):
         np.testing.assert_array_equal(found, expected)
-    empty_tiles(sort_again(tiles, particles, grid, store), particles)
+    read_tiles(sorted_tiles(tiles, grid), particles)
     np.testing.assert_array_equal(particles.x, before.x)
 
 
 def leave(tiles, grid, shift):
-    """Move all particles by ``shift`` (2,) in m and note who is gone; return whether all are on the grid."""
+    """Move all particles by ``shift`` (2,) in m; return whether all are on the grid."""
     used = tiles.blocks[: tiles.counts[USED]]
-    used[:, X] += shift[0]
-    used[:, Y] += shift[1]
-    for tile, first in enumerate(tiles.first):
-        row, column = divmod(tile, grid.columns // 8 - 1)
-        block = first
-        while block >= 0:
-            places = [(used[block, axis] - grid.origin) / grid.cell_size - grid.half_length for axis in (X, Y)]
-            moved = (np.floor(places[0]) != 8 * column + np.arange(8)) | (np.floor(places[1]) != row)
-            tiles.gone[block] = np.sum((moved & (used[block, MASS] > 0.0)) << np.arange(8))
-            block = tiles.following[block]
-    return change_tiles(tiles, grid)
+    is_there = used[:, MASS] > 0.0
+    for old, new, by in zip((X, Y), (MOVED_X, MOVED_Y), shift, strict=True):
+        used[:, new] = np.where(is_there, used[:, old] + by, used[:, old])
+    return move(tiles, grid, allocate_workspace(N))
 
 
 @pytest.mark.parametrize("shift", [(0.0, 0.0), (0.04, -0.03), (-0.3, 0.5), (0.37, 0.21)])
@@ -118,7 +112,7 @@ def test_whoever_leaves_a_cell_is_found_in_the_next(particles, grid, shift):
     np.testing.assert_array_equal(
         members(tiles, grid), expected_members(before.x + shift[0], before.y + shift[1], grid)
     )
-    empty_tiles(tiles, particles)
+    read_tiles(tiles, particles)
     np.testing.assert_array_equal(particles.x, before.x + shift[0])
     np.testing.assert_array_equal(particles.stress_zz, before.stress_zz)
 
@@ -129,7 +123,7 @@ def test_whoever_leaves_the_grid_is_told_and_keeps_its_place(particles, grid, sh
     tiles = fill_tiles(particles, grid, allocate_tiles(N))
     assert not leave(tiles, grid, shift)
     assert tiles.counts[LEAVERS] > 0
-    empty_tiles(tiles, particles)
+    read_tiles(tiles, particles)
     np.testing.assert_array_equal(particles.x, before.x + shift[0])
     np.testing.assert_array_equal(particles.y, before.y + shift[1])
 
@@ -138,4 +132,4 @@ def test_a_block_is_whole_vectors_on_the_lines_of_the_cache():
     store = allocate_tiles(5)
     assert store.blocks.shape[1:] == (FIELDS, 8)
     assert store.blocks.ctypes.data % 64 == 0
-    assert tiles_in_row.py_func(allocate_grid(10.0, 4.0, 0.5, 0.25)) == 3
+    assert tiles_in_row(allocate_grid(10.0, 4.0, 0.5, 0.25)) == 3

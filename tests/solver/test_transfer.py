@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from driver import MUSL, begin
+from driver import MUSL
+from parts_of_a_step import begin
 
 from solver._jit import kernel
 from solver.constants import LANE_COUNT
@@ -14,9 +15,10 @@ from solver.laws.registry import Constants
 from solver.particles import allocate_particles
 from solver.scheme import STRESS_UPDATES, Scheme
 from solver.softening import NO_SOFTENING
+from solver.sorting import fill_tiles
 from solver.step import advance, allocate_workspace
 from solver.surface import Surface
-from solver.tiles import MASS, NUMBER, X, Y, fill_tiles, get, place_of
+from solver.tiles import MASS, NUMBER, X, Y, get, place_of
 from solver.transfer import gradient, interpolate, weights_of
 
 CELL = 0.5

@@ -29,7 +29,8 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from driver import MUSL, UGIMP, Row, begin, grid_without_walls, lattice, march, node_indices, solve, wrap_around
+from driver import MUSL, UGIMP, Row, grid_without_walls, lattice, march, node_indices, wrap_around
+from parts_of_a_step import accelerate, begin, deform, solve
 
 from solver.constants import STANDARD_GRAVITY
 from solver.elastic import p_wave_speed
@@ -38,8 +39,8 @@ from solver.laws.mohr_coulomb import mohr_coulomb
 from solver.laws.registry import Constants
 from solver.particles import allocate_particles
 from solver.softening import NO_SOFTENING
-from solver.step import accelerate, allocate_workspace, deform
-from solver.tiles import empty_tiles
+from solver.sorting import read_tiles
+from solver.step import allocate_workspace
 
 HEIGHT, DENSITY, YOUNG_MODULUS, POISSON_RATIO, COURANT = 1.0, 2000.0, 1e8, 0.3, 0.4
 DURATION, STEADY = 0.5, 0.25  # s; stress is steady in the second half
@@ -86,7 +87,7 @@ def slide(particles, grid, soil, gravity_x, gravity_y, dt, steps):
         grid.remapped[:] /= np.maximum(grid.mass, SMALLEST_MASS)[:, None]
         wrap_around(tiles, grid.width)
         assert deform(tiles, grid, work, (soil,), MUSL, 0.0, dt)
-        empty_tiles(tiles, particles)
+        read_tiles(tiles, particles)
         velocity[step] = particles.velocity_x[upper].mean()
     return velocity
 

@@ -19,11 +19,13 @@ from driver import (
     observed_orders,
     orders_row,
 )
+from parts_of_a_step import deform
 
 from solver.elastic import p_wave_speed
 from solver.particles import allocate_particles
-from solver.step import advance, allocate_workspace, deform
-from solver.tiles import MOVED_X, MOVED_Y, USED, X, Y, empty_tiles, fill_tiles
+from solver.sorting import fill_tiles, read_tiles
+from solver.step import advance, allocate_workspace
+from solver.tiles import MOVED_X, MOVED_Y, USED, X, Y
 
 DENSITY, RADIUS, CENTRE = 1000.0, 0.5, 1.0  # kg/m3, m, m
 SOIL = elastic_soil(1000.0, 0.3)
@@ -58,7 +60,7 @@ def turned_once(steps, along_chords):
         used[:, MOVED_X] = CENTRE + np.cos(angle) * x_p - np.sin(angle) * y_p
         used[:, MOVED_Y] = CENTRE + np.sin(angle) * x_p + np.cos(angle) * y_p
         assert deform(tiles, grid, work, (SOIL,), MUSL, 0.0, 1.0)
-        empty_tiles(tiles, body)
+        read_tiles(tiles, body)
     return body
 
 
