@@ -3,6 +3,7 @@
 import os
 import sys
 from datetime import timedelta
+from math import ceil, floor, log10
 
 CLEAR = "\x1b[H\x1b[J"  # cursor home, and nothing after it (ECMA-48)
 
@@ -21,6 +22,12 @@ def data_size(n_bytes: float) -> str:
     while size >= 999.5 and units:
         size, unit = size / 1e3, units.pop(0)
     return f"{size:.2g} {unit}" if size < 99.5 else f"{size:,.0f} {unit}" if size < 1e6 else f"{size:.2g} {unit}"
+
+
+def rounded_up(number: float) -> str:
+    """Write a number with two digits, not below it."""
+    unit = 10.0 ** (floor(log10(number)) - 1)
+    return f"{ceil(number / unit - 1e-9) * unit:g}"
 
 
 def clock(seconds: float) -> str:

@@ -29,6 +29,9 @@ HEADER = """\
 title = {title}
 """
 
+FRONT_AREA = """\
+# front_area = "2.2 m^2"        # slid ground ahead of the front of the mass; if left out, height^2 / 100"""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
@@ -62,9 +65,12 @@ def carry_out(options: argparse.Namespace) -> ExitCode:
 def new_scene(file: Path) -> str:
     """Return the text of a built-in scene with a header for a new user."""
     import json
+    import re
 
     from campaign.scene.document import read_document
 
     body = read_document(TEMPLATE).text.partition("\ntitle = ")[2].partition("\n")[2]
+    # What suits a slope of 15 m in the paper is a fraction of a particle in a larger one.
+    body = re.sub(r"(?m)^front_area = .*$", FRONT_AREA, body)
     title = json.dumps(file.stem, ensure_ascii=False)
     return HEADER.format(name=file.stem, file=file.name, title=title) + body

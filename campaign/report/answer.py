@@ -51,7 +51,7 @@ def reasons_for_doubt(results: Results) -> list[str]:
         f"{unsettled:,} of {counted(n, 'run-out')} {bounds}: still moving when the run ended (numerics.end_time)."
     )
     volumes, mass_runouts = results.of_slides("detached_volume"), results.of_slides(FINAL_RUNOUT["mass"])
-    apart = detached_fronts(volumes, mass_runouts, results.scene.slide.front_area, results.front)
+    apart = detached_fronts(volumes, mass_runouts, results.scene.front_area, results.front)
     return [*doubts(results.runouts), *apart, *([censored] if unsettled else [])]
 
 

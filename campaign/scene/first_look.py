@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from campaign.scene import Scene
-from campaign.scene.ground_surface import surface_of
+from campaign.scene.ground_surface import height_above_toe, surface_of
 from campaign.scene.limit_equilibrium import SlipCircle, critical_circle, factor_on
 from campaign.scene.sections import FrictionAngle
 from campaign.scene.softening import share_left
@@ -97,12 +97,6 @@ def braking_friction(scene: Scene, surface: Surface, height: float) -> float:
     end = min(toe_x + 2.0 * height, surface.width)
     descent = (toe_y - float(surface.height_at(np.array([end]))[0])) / (end - toe_x)
     return max(LEAST_FRICTION, tan(angle) + cohesion / (soil.unit_weight * DEPTH * height) - descent)
-
-
-def height_above_toe(surface: Surface) -> float:
-    """Return how far in m the highest ground upslope of the toe lies above the toe."""
-    toe_x, toe_y = surface.toe
-    return float(np.max(surface.y[surface.x <= toe_x])) - toe_y
 
 
 def _circle(surface: Surface, cohesion: float, friction_angle: float, unit_weight: float) -> SlipCircle | None:

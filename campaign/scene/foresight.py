@@ -1,14 +1,15 @@
 """What can be run but hardly be meant, or will not give the answer that is asked for: warnings before a campaign."""
 
-from math import ceil, floor, log10
+from math import ceil
 
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint, found
 from campaign.scene.cost import core_seconds, output_count, particle_count, realization_seconds, step_count, time_step
 from campaign.scene.first_look import LONGEST_SLIDE, TYPICAL_SLIDE, FirstLook
+from campaign.scene.front import front_of_particles, front_of_the_slide
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
-from campaign.terminal import duration
+from campaign.terminal import duration, rounded_up
 from solver.surface import Surface
 
 ABSURD_FACTOR = 5.0
@@ -44,6 +45,8 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
         (
             far_from_failure(look),
             coarse_cells(scene, look),
+            front_of_particles(scene, look),
+            front_of_the_slide(scene, look),
             short_interval(scene),
             damped_slide(scene),
             short_timeout(scene),
@@ -197,12 +200,6 @@ def unusual_soil(scene: Scene, key: str, least: float, most: float, usual: str) 
     if value is None or least <= value <= most:
         return None
     return Complaint(key, f"soils have {usual}; check the number and the unit")
-
-
-def rounded_up(number: float) -> str:
-    """Write a number with two digits, not below it."""
-    unit = 10.0 ** (floor(log10(number)) - 1)
-    return f"{ceil(number / unit - 1e-9) * unit:g}"
 
 
 def _driven(look: FirstLook) -> list[SlipCircle]:

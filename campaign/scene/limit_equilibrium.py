@@ -46,6 +46,11 @@ class SlipCircle(NamedTuple):
         x = np.linspace(self.entry, self.exit, DEPTHS, dtype=np.float64)
         return float(np.max(surface.height_at(x) - self.elevation(x)))
 
+    def area(self, surface: Surface) -> float:
+        """Return the area in m2 between it and the surface."""
+        x = np.linspace(self.entry, self.exit, DEPTHS, dtype=np.float64)
+        return float(np.mean(surface.height_at(x) - self.elevation(x))) * (self.exit - self.entry)
+
     def elevation(self, x: Array) -> Array:
         """Return the elevation in m of the arc at places between its ends."""
         return np.asarray(self.y - np.sqrt(np.maximum(self.radius**2 - (x - self.x) ** 2, 0.0)))

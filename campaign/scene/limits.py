@@ -5,8 +5,7 @@ from math import sqrt
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint, found
 from campaign.scene.cost import dataset_bytes, output_count, particle_count, rank_bytes, record_bytes, time_step
-from campaign.scene.first_look import height_above_toe
-from campaign.scene.ground_surface import surface_of
+from campaign.scene.ground_surface import height_above_toe, surface_of
 from campaign.terminal import data_size
 from solver.constants import STANDARD_GRAVITY
 

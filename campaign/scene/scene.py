@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from hashlib import sha256
 from typing import Any
 
+from campaign.scene.ground_surface import height_above_toe, surface_of
 from campaign.scene.sections import SceneFile
 
 ADDED_LATER = {"soil.law": "mohr-coulomb"}
@@ -14,6 +15,10 @@ NOT_IDENTITY = {"slide": {"front"}}
 """What decides the statistics and not the realizations, though it stands among what does."""
 
 
+FRONT_WEDGE = 0.1
+"""Side, in heights of the slope, of the square of ground ahead of a front whose `slide.front_area` is left out."""
+
+
 class Scene(SceneFile):
     """A valid scene, with the name and the text it came from; every number in SI units."""
 
@@ -21,11 +26,20 @@ class Scene(SceneFile):
     text: str
     overrides: tuple[str, ...] = ()
 
+    @property
+    def front_area(self) -> float:
+        """Area of slid ground in m2 that the front of the mass leaves ahead of it; by default it grows with the slope.
+
+        It does not depend on the cells, so that one front is followed on every mesh.
+        """
+        given = self.slide.front_area
+        return (FRONT_WEDGE * height_above_toe(surface_of(self.geometry))) ** 2 if given is None else given
+
     def identity(self) -> dict[str, Any]:
         """Return, by dotted key, every SI value that decides what realization k is; ready for JSON."""
         told = {"geometry", "soil", "field", "numerics", "slide", "receptor"}
         sections = self.model_dump(mode="json", include=told, exclude=NOT_IDENTITY)
-        values = flatten(sections) | {"campaign.seed": self.campaign.seed}
+        values = flatten(sections) | {"campaign.seed": self.campaign.seed, "slide.front_area": self.front_area}
         return {key: value for key, value in values.items() if value is not None and value != ADDED_LATER.get(key)}
 
     def digest(self) -> str:

@@ -166,11 +166,14 @@ class Numerics(Section):
 
 
 class Slide(Section):
-    """From which displacement since release on (m) ground belongs to the slide and a slope has failed; its front."""
+    """From which displacement since release on (m) ground belongs to the slide and a slope has failed; its front.
+
+    `Scene.front_area` is that area in m2, also where it is left out.
+    """
 
     displaced: PositiveLength = 0.1
     failed: PositiveLength = 1.0
-    front_area: PositiveArea = 0.25
+    front_area: PositiveArea | None = None
     front: Literal["mass", "tip"] = "mass"
 
 

@@ -1,11 +1,15 @@
 """What a scene says of softening, as a rate and as the slip after which strength is residual."""
 
+from campaign.scene.scene import Scene
 from campaign.scene.sections import Softening
 from solver.internal_length import BAND_THICKNESS
 from solver.slip_to_residual import SHARE_LEFT, rate_of, slip_of
 
 LOCKED_BAND_THICKNESS = 4.4
 """In cells, of bands that volumetric locking thickens: plain uGIMP in `ma2023-printed`."""
+
+BRITTLE = 0.1
+"""Slip to residual strength in heights of the slope, up to which a slope is brittle."""
 
 RING_SHEAR = "ring shear tests on clay need 0.1 to 0.5 m"
 
@@ -29,6 +33,11 @@ def share_left(softening: Softening, slip: float, is_locked: bool) -> float:
     thickness = softening.internal_length or cells * (softening.reference_cell or 0.0)
     slips = slip / slip_of(rate, thickness, is_linear)
     return float(max(0.0, 1.0 - slips) if is_linear else SHARE_LEFT**slips)
+
+
+def is_brittle(scene: Scene, height: float) -> bool:
+    """Whether strength is residual after a slip of a tenth of the height in m: a slide then breaks up as it begins."""
+    return share_left(scene.soil.softening, BRITTLE * height, scene.numerics.locking == "none") <= SHARE_LEFT
 
 
 def softening_words(softening: Softening) -> str:

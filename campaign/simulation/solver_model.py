@@ -35,7 +35,7 @@ def model_of(scene: Scene) -> Model:
         method=Method(numerics.basis, numerics.stress_update, numerics.locking, numerics.flip),
         internal_length=scene.soil.softening.internal_length or 0.0,
         ramp_time=numerics.ramp_time if numerics.gravity == "ramp" else 0.0,
-        criteria=SlideCriteria(slide.displaced, slide.failed, slide.front_area, slide.front),
+        criteria=SlideCriteria(slide.displaced, slide.failed, scene.front_area, slide.front),
     )
 
 

@@ -9,12 +9,13 @@ from campaign.scene import Scene
 from campaign.scene.complaints import Complaint, found
 from campaign.scene.cost import realization_seconds
 from campaign.scene.first_look import TYPICAL_SLIDE, FirstLook
-from campaign.scene.foresight import longer_plain, rounded_up
+from campaign.scene.foresight import longer_plain
 from campaign.scene.rules.numerics import LEAST_CELLS_OF_HEIGHT
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import Interrupted
 from campaign.simulation.detachment import CAME_APART
 from campaign.simulation.ground import Ground, prepare
+from campaign.terminal import rounded_up
 
 AFFORDABLE = 5.0
 """Seconds that a trial may take by estimate; it is given up after `PATIENCE` times as many."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from campaign.record import Front
 from campaign.statistics.intervals import Sample, kurtosis
-from campaign.terminal import counted
+from campaign.terminal import counted, rounded_up
 
 # A normal sample of 1000 has kurtosis 3.0 +- 0.15, and its largest value makes 1 % of the variance.
 HEAVY_KURTOSIS = 10.0
@@ -76,15 +76,22 @@ def detached_fronts(volumes: Sample, mass_runouts: Sample, front_area: float, fr
         return [
             f"In {apart:,} of {counted(len(volumes), 'slide')} the front-most ground has come apart, too far for it to "
             'be held back: the run-out is that of this debris. Use slide.front = "mass" '
-            f"({mass_runouts.mean():.2f} m on average){_too_much(beyond)}."
+            f"({mass_runouts.mean():.2f} m on average){_too_much(volumes, beyond)}."
         ]
     if beyond:
         return [
-            f"In {beyond:,} of {counted(len(volumes), 'slide')} more ground than slide.front_area has come apart: the "
-            "run-out is that of this debris. Use a larger slide.front_area."
+            f"In {beyond} of {counted(len(volumes), 'slide')} more ground than slide.front_area has come apart: the "
+            f"run-out is that of this debris. Use {_larger(volumes)}."
         ]
     return []
 
 
-def _too_much(slides: int) -> str:
-    return f", and a larger slide.front_area: in {slides} there is more debris than that" if slides else ""
+def _larger(volumes: Sample) -> str:
+    """Name an area that no slide has in debris alone."""
+    return (
+        f'slide.front_area = "{rounded_up(1.01 * float(volumes.max()))} m^2", more than has come apart in any of them'
+    )
+
+
+def _too_much(volumes: Sample, slides: int) -> str:
+    return f" and {_larger(volumes)}: in {slides} there is more debris than the front leaves ahead" if slides else ""

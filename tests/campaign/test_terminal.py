@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from campaign.terminal import counted, refresh
+from campaign.terminal import counted, refresh, rounded_up
 
 
 def test_one_has_no_plural():
@@ -16,3 +16,10 @@ def test_a_terminal_is_cleared_and_a_log_goes_on(is_terminal, beginning, capsys,
     monkeypatch.setattr(sys.stdout, "isatty", lambda: is_terminal)
     refresh("how it stands")
     assert capsys.readouterr().out == f"{beginning}how it stands\n"
+
+
+@pytest.mark.parametrize(
+    ("number", "text"), [(22.5, "23"), (9.892, "9.9"), (0.0214, "0.022"), (20.0, "20"), (1234.0, "1300")]
+)
+def test_a_remedy_has_two_digits_and_is_not_too_small(number, text):
+    assert rounded_up(number) == text

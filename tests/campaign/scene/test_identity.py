@@ -78,3 +78,14 @@ def test_values_that_look_alike_are_told_apart() -> None:
 )
 def test_an_override_that_a_later_one_replaces_is_forgotten(overrides: list[str], kept: list[str]) -> None:
     assert in_force(overrides) == kept
+
+
+def test_a_front_area_left_out_grows_with_the_slope_and_not_with_the_cells() -> None:
+    """The square of a tenth of the height, the same on every mesh; it is part of the identity as if it were written."""
+    tables = EXAMPLE.tables | {"slide": {}, "name": "a", "text": ""}
+    slope = tables["geometry"]["slope"] | {"height": "30 m"}
+    fine = tables["numerics"] | {"cell": "0.5 m"}
+    scenes = [tables, tables | {"numerics": fine}, tables | {"geometry": {"slope": slope}}]
+    areas = [Scene.model_validate(each).identity()["slide.front_area"] for each in scenes]
+    assert areas == pytest.approx([2.25, 2.25, 9.0])
+    assert Scene.model_validate(tables | {"slide": {"front_area": "1 m^2"}}).front_area == 1.0

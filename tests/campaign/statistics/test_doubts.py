@@ -58,6 +58,7 @@ def test_the_mass_front_does_not_care_about_less_debris_than_lies_ahead_of_it():
 def test_debris_larger_than_the_mass_front_is_told():
     apart = np.array([0.0, 0.1, 0.25, 3.0])
     (doubt,) = detached_fronts(apart, np.full(4, 8.0), 0.25, "tip")
-    assert doubt.endswith("and a larger slide.front_area: in 2 there is more debris than that.")
+    assert doubt.endswith("in any of them: in 2 there is more debris than the front leaves ahead.")
     (doubt,) = detached_fronts(apart, np.full(4, 8.0), 0.25, "mass")
     assert doubt.startswith("In 2 of 4 slides more ground than slide.front_area has come apart")
+    assert doubt.endswith('Use slide.front_area = "3.1 m^2", more than has come apart in any of them.')
