@@ -67,7 +67,7 @@ def _toe(scene: Scene, look: FirstLook) -> str:
     elif scene.geometry.slope is not None:
         how = "the foot of the slope"
     else:
-        how = "the foot of the steepest face; geometry.toe can say otherwise"
+        how = "the foot of the slope, of all its faces; geometry.toe can say otherwise"
     return f"At x = {x:.4g} m, elevation {y:.4g} m: {how}."
 
 

@@ -25,6 +25,7 @@ HEADER = """\
 #
 #     [geometry]
 #     surface = [["0 m", "19 m"], ["20 m", "19 m"], ["35 m", "4 m"], ["75 m", "4 m"]]   # x and elevation above the base
+#     toe = "35 m"               # from which run-out is measured; if left out, the foot of the slope of all faces
 
 title = {title}
 """

@@ -9,6 +9,7 @@ from campaign.scene.first_look import LONGEST_SLIDE, TYPICAL_SLIDE, FirstLook
 from campaign.scene.front import front_of_particles, front_of_the_slide
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
+from campaign.scene.toe import misplaced_toe
 from campaign.terminal import duration, rounded_up
 from solver.surface import Surface
 
@@ -45,6 +46,7 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
         (
             far_from_failure(look),
             coarse_cells(scene, look),
+            misplaced_toe(scene, look),
             front_of_particles(scene, look),
             front_of_the_slide(scene, look),
             short_interval(scene),

@@ -24,8 +24,9 @@ def front_of_particles(scene: Scene, look: FirstLook) -> Complaint | None:
         return None
     return Complaint(
         "slide.front_area",
-        f"this is {scene.front_area / particle:.2g} particles of {particle:.2g} m2, so that single ones "
-        f'decide the run-out; use "{rounded_up(fewest * particle)} m^2" or more, or smaller cells',
+        f"the front then leaves {scene.front_area:.2g} m2 ahead of it, {scene.front_area / particle:.2g} particles of "
+        f'{particle:.2g} m2, and single ones decide the run-out; use "{rounded_up(fewest * particle)} m^2" or more, '
+        "or smaller cells",
     )
 
 

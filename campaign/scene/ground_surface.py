@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from campaign.scene.sections import Geometry
-from solver.surface import Surface, foot_of_steepest_face, slope_surface
+from solver.faces import foot_of_slope
+from solver.surface import Surface, slope_surface
 
 
 def surface_of(geometry: Geometry) -> Surface:
@@ -24,10 +25,10 @@ def surface_through(points: Sequence[Sequence[float]], toe: float | None = None)
     points
         Two or more.
     toe
-        Place of the toe in m; the foot of the steepest face if not given.
+        Place of the toe in m; the foot of the slope if not given.
     """
     x, y = np.array(points, dtype=float).T.copy()
-    return Surface(x, y, foot_of_steepest_face(x, y) if toe is None else toe)
+    return Surface(x, y, foot_of_slope(x, y) if toe is None else toe)
 
 
 def height_above_toe(surface: Surface) -> float:

@@ -46,6 +46,11 @@ class SlipCircle(NamedTuple):
         x = np.linspace(self.entry, self.exit, DEPTHS, dtype=np.float64)
         return float(np.max(surface.height_at(x) - self.elevation(x)))
 
+    def elevation_of_ends(self, surface: Surface) -> tuple[float, float]:
+        """Return the elevations in m at which it leaves the surface uphill and downhill."""
+        upper, lower = surface.height_at(np.array([self.entry, self.exit]))
+        return float(upper), float(lower)
+
     def area(self, surface: Surface) -> float:
         """Return the area in m2 between it and the surface."""
         x = np.linspace(self.entry, self.exit, DEPTHS, dtype=np.float64)

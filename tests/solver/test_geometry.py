@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from solver.faces import foot_of_slope
 from solver.filling import fill_ground
-from solver.surface import Surface, foot_of_steepest_face, slope_surface
+from solver.surface import Surface, slope_surface
 
 
 def surface(*points):
@@ -40,17 +41,44 @@ def test_slope_has_its_toe_at_the_foot():
             40.0,
             id="hollow slope that runs out in a fan",
         ),
+        pytest.param(
+            [
+                (0, 25),
+                (30, 24),
+                (36, 24),
+                (42, 19),
+                (46, 18.6),
+                (53, 13),
+                (57, 12.6),
+                (64, 7),
+                (68, 6.6),
+                (69.5, 5.8),
+                (71, 6.6),
+                (76, 6.8),
+                (82, 6.8),
+                (100, 6),
+                (125, 5),
+            ],
+            64.0,
+            id="cut of three faces above a ditch",
+        ),
+        pytest.param(
+            [(0, 25), (36, 25), (42, 19), (46, 19), (52, 13), (56, 13), (62, 7), (125, 7)], 62.0, id="regular benches"
+        ),
+        pytest.param([(0, 25), (20, 25), (20, 19), (24, 19), (30, 13), (90, 13)], 30.0, id="wall above a face"),
+        pytest.param([(0, 25), (20, 25), (30, 15), (45, 15), (50, 10), (90, 10)], 30.0, id="face beyond a wide berm"),
+        pytest.param([(0, 14), (20, 14), (30, 4), (33, 4), (34, 2.8), (50, 2.8)], 30.0, id="bank of a stream"),
     ],
 )
-def test_the_toe_is_the_foot_of_the_steepest_face(points, toe):
-    assert foot_of_steepest_face(*np.array(points, dtype=float).T) == toe
+def test_the_toe_is_the_foot_of_the_slope_however_many_faces_short_benches_part(points, toe):
+    assert foot_of_slope(*np.array(points, dtype=float).T) == toe
 
 
 def test_the_foot_does_not_depend_on_how_finely_a_surface_is_drawn():
     x = np.array([0.0, 20.0, 35.0, 75.0])
     y = np.array([22.0, 22.0, 7.0, 5.0])
     fine = np.union1d(x, np.linspace(0.0, 75.0, 151))
-    assert foot_of_steepest_face(fine, np.interp(fine, x, y)) == 35.0
+    assert foot_of_slope(fine, np.interp(fine, x, y)) == 35.0
 
 
 @pytest.mark.parametrize(
@@ -63,6 +91,7 @@ def test_the_foot_does_not_depend_on_how_finely_a_surface_is_drawn():
         ([[0, 19], [10, 19], [20, 9], [40, 9], [50, 4], [80, 4]], 50.0, 10.0),  # two faces, alike: the higher one
         ([[0, 19], [10, 19], [20, 9], [40, 9], [45, 4], [80, 4]], 30.0, 10.0),  # a toe on the berm
         ([[0, 4], [20, 8], [40, 4]], 10.0, 10.0),  # no face above the toe
+        ([[0, 25], [36, 25], [44, 19], [48, 19], [54, 13], [58, 13], [62, 7], [99, 7]], 62.0, 36.0),  # steeper below
     ],
 )
 def test_the_crest_is_where_the_steepest_face_above_the_toe_begins(points, toe, crest):
@@ -71,7 +100,7 @@ def test_the_crest_is_where_the_steepest_face_above_the_toe_begins(points, toe, 
 
 def test_ground_that_only_rises_has_no_foot():
     with pytest.raises(ValueError, match="nowhere descends"):
-        foot_of_steepest_face(np.array([0.0, 10.0]), np.array([1.0, 2.0]))
+        foot_of_slope(np.array([0.0, 10.0]), np.array([1.0, 2.0]))
 
 
 @pytest.mark.parametrize(

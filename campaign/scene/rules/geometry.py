@@ -41,7 +41,7 @@ def _toe_found_on_the_ground(surface: Points | None, toe: float | None, cell: fl
     if _is_on_ground(found, surface, cell):
         return None
     return (
-        f"the foot of its steepest face, x = {found:g} m, lies on a wall, where no slide can run out; "
+        f"the foot of its slope, x = {found:g} m, lies on a wall, where no slide can run out; "
         f"add ground beyond it, {_clear(cell)} or more, or give geometry.toe"
     )
 

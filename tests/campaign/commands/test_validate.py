@@ -21,7 +21,7 @@ def test_a_scene_is_looked_at(capsys):
     assert code == 0
     flat = " ".join(printed.out.split())
     for part in (
-        "toe At x = 35 m, elevation 4 m: the foot of the slope.",
+        "toe At x = 35 m, elevation 4 m: the foot of the slope, of all its faces.",
         "factor of safety 0.73 with the mean peak strength on a circle from x = 14.1 m to 35 m",
         "0.37 with the residual strength",
         "Nearly every realization slides.",
@@ -37,7 +37,7 @@ def test_a_scene_is_looked_at(capsys):
 def test_a_profile_is_told_where_its_toe_was_found(capsys):
     surface = 'geometry.surface=[["0 m","19 m"],["20 m","19 m"],["35 m","4 m"],["75 m","4 m"]]'
     _, printed = answer(capsys, "ma2023", "--set", "geometry={}", "--set", surface)
-    assert "x = 35 m, elevation 4 m: the foot of the steepest face" in " ".join(printed.out.split())
+    assert "x = 35 m, elevation 4 m: the foot of the slope" in " ".join(printed.out.split())
     _, printed = answer(capsys, "ma2023", "--set", "geometry={}", "--set", surface, "--set", "geometry.toe=30 m")
     assert "x = 30 m, elevation 9 m: as given." in " ".join(printed.out.split())
 

@@ -9,6 +9,11 @@ from campaign.scene.foresight import expected_of_slides, warnings
 
 PROFILE = 'geometry={surface=[["0 m","19 m"],["20 m","19 m"],["35 m","4 m"],["45 m","4 m"]]}'
 
+BENCHED = 'geometry={surface=[["0 m","25 m"],["36 m","24 m"],["42 m","19 m"],["46 m","18.6 m"],["53 m","13 m"],'
+BENCHED += '["57 m","12.6 m"],["64 m","7 m"],["125 m","5 m"]]}'
+UPPER = 'geometry={surface=[["0 m","30 m"],["20 m","30 m"],["30 m","16 m"],["50 m","16 m"],["62 m","10 m"],'
+UPPER += '["99 m","10 m"]]}'
+
 
 def warned(*overrides, source="ma2023"):
     scene = load_scene(source, overrides)
@@ -38,8 +43,11 @@ def test_the_built_in_scenes_are_sound(source):
         (["numerics.flip=0.999"], "--set numerics.flip is 0.999, but this damping takes about 1.0% of the work"),
         (["campaign.realization_timeout=1 s"], 'may take 3 s; use at least "0.0015 h", or larger cells'),
         (["campaign.realizations=1000000000"], "core-hours; use fewer, or larger cells"),
-        (["slide.front_area=0.1 m^2"], 'this is 0.4 particles of 0.25 m2, so that single ones decide'),
+        (["slide.front_area=0.1 m^2"], 'leaves 0.1 m2 ahead of it, 0.4 particles of 0.25 m2, and'),
         (["soil.softening.slip_to_residual=0.3 m"], 'decide the run-out; use "1 m^2" or more, or smaller cells'),
+        ([BENCHED, "geometry.toe=53 m"], 'comes out at x = 64 m, below the toe at elevation 13 m'),
+        ([BENCHED, "geometry.toe=20 m"], 'use geometry.toe = "64 m"'),
+        ([UPPER, "geometry.toe=62 m"], "high above the toe: a slide that stops before the toe, x = 62 m, runs 0 m"),
         (["slide.front_area=100 m^2"], "the front is to leave 1e+02 m2 of it ahead; use "),
         (["soil.unit_weight=20 N/m^3"], 'is "20 N/m^3", but soils have 5 to 40 kN/m^3; check the number and the unit.'),
         (["soil.young_modulus=1 Pa"], "but soils have 0.1 MPa (very soft) to 100 GPa"),
@@ -54,3 +62,10 @@ def test_what_can_hardly_be_meant_is_said_with_its_remedy(overrides, sentence):
 
 def test_a_slope_that_cannot_slide_is_not_asked_for_a_longer_run():
     assert len(warned("soil.cohesion.mean=25 MPa", "numerics.end_time=1 s", "geometry.slope.plain=3 m")) == 1
+
+
+def test_the_toe_of_a_benched_slope_is_where_its_critical_circle_comes_out():
+    look = look_at(load_scene("ma2023", [BENCHED]))
+    assert look.surface.toe_x == 64.0
+    assert look.peak.exit == pytest.approx(64.0, abs=1.0)
+    assert not [text for text in warned(BENCHED) if "toe" in text]

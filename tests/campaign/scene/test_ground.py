@@ -86,7 +86,7 @@ def test_a_toe_on_a_wall_is_refused(toe: str) -> None:
 
 def test_a_slope_that_ends_at_the_wall_is_refused() -> None:
     (message,) = found_in(EXAMPLE.tables | {"geometry": {"surface": [["0 m", "19 m"], ["20 m", "4 m"]]}})
-    assert "the foot of its steepest face, x = 20 m, lies on a wall" in message
+    assert "the foot of its slope, x = 20 m, lies on a wall" in message
 
 
 def test_the_toe_of_a_slope_is_not_given_again() -> None:
