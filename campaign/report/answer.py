@@ -96,9 +96,11 @@ def _parts(results: Results, mean: Interval) -> str:
     sampling, found = f"sampling ±{mean.half_width:.2f} m", results.discretisation
     if found is None or not has_mesh_error(found):
         return f"{sampling}; what the mesh adds is not estimated"
-    change = found.interval
-    mesh = f"mesh {change.estimate:+.2f} ± {change.half_width:.2f} m, which is what half the cell changes"
-    return f"{sampling} about the {mean.estimate:.2f} m counted; {mesh}"
+    change, cell = found.interval, results.scene.numerics.cell
+    return (
+        f"as counted with cells of {cell:g} m, {sampling}; half the cell changes it by {change.estimate:+.2f} ± "
+        f"{change.half_width:.2f} m, and the interval holds up to twice that"
+    )
 
 
 def _walls(results: Results) -> str:

@@ -42,6 +42,8 @@ def what_intervals_hold(results: Results) -> str:
     """Say what the intervals of the first screen hold."""
     mesh = "sampling and mesh" if has_mesh_error(results.discretisation) else "sampling alone"
     of_runouts = f"; those of the run-out hold {mesh}" if results.outcomes.slides else ""
+    if has_mesh_error(results.discretisation) and results.outcomes.slides:
+        of_runouts += ", those of probabilities sampling alone"
     return f"Intervals are at {100 * results.confidence:g} % confidence{of_runouts}. None holds the error of the model."
 
 

@@ -43,11 +43,13 @@ def of_total(history: ConvergenceHistory, found: Discretisation | None) -> Varia
     lower, upper = history.mean_ci[-1].tolist()
     sampled = Interval(float(history.mean[-1]), lower, upper, int(history.n_slides[-1]))
     total = total_interval(sampled, found)
-    mean = variable((), total.estimate, "m", "mean final run-out of the slides, with half the cell where that is known")
+    mean = variable((), total.estimate, "m", "mean final run-out of the slides")
     mean.attrs["comment"] = TOTAL
     return {
         "runout_mean_total": mean,
-        "runout_mean_total_ci": variable("bound", total[1:3], "m", "confidence interval of runout_mean_total"),
+        "runout_mean_total_ci": variable(
+            "bound", total[1:3], "m", "confidence interval of runout_mean_total, for sampling and mesh"
+        ),
     }
 
 

@@ -9,11 +9,11 @@ FARTHEST = 2.0
 """How many times the change with half the cell smaller cells may change the run-out: 2 is first order."""
 
 TOTAL = (
-    "estimate: mean with the cell plus mean change c with half the cell; interval: from where the mean itself may lie "
-    "to where the mean plus 2 c, the limit of small cells at first order, may lie. It holds the limits at any order of "
-    "convergence of one or more, and those where smaller cells undo a part of the change. Half-widths: a of the mean, "
-    "sqrt(a^2 + 4 b^2) of the mean plus 2 c, where b is that of c. Without pairs of run-outs, the mean and its "
-    "sampling error alone"
+    "estimate: mean as counted with the cell; interval: from where the mean itself may lie to where the mean plus 2 c "
+    "may lie, with c the mean change with half the cell, the limit of small cells at first order. It holds the limits "
+    "at any order of convergence of one or more, and those where smaller cells undo a part of the change. Half-widths: "
+    "a of the mean, sqrt(a^2 + 4 b^2) of the mean plus 2 c, where b is that of c. Without pairs of run-outs, the mean "
+    "and its sampling error alone"
 )
 
 
@@ -42,8 +42,8 @@ def total_interval(mean: Interval, found: Discretisation | None) -> Interval:
     Returns
     -------
     Interval
-        In m, never below zero; the estimate is mean + c. `mean` as it is where there are fewer than two pairs: sampling
-        error alone.
+        In m, never below zero, about the estimate as counted. `mean` as it is where there are fewer than two pairs:
+        sampling error alone.
     """
     if found is None or not has_mesh_error(found):
         return mean
@@ -54,7 +54,7 @@ def total_interval(mean: Interval, found: Discretisation | None) -> Interval:
         for arm in (mean.estimate - mean.lower, mean.upper - mean.estimate)
     )
     lower, upper = min(mean.lower, limit - below), max(mean.upper, limit + above)
-    return Interval(mean.estimate + change.estimate, 0.0 if lower < 0.0 else lower, upper, mean.n)
+    return Interval(mean.estimate, 0.0 if lower < 0.0 else lower, upper, mean.n)
 
 
 def has_mesh_error(found: Discretisation | None) -> bool:

@@ -98,11 +98,9 @@ def _caption(results: Results) -> str:
 
 
 def _mesh(results: Results) -> str:
-    """Say by how much the marks differ from what was counted."""
-    found = results.discretisation
-    if found is None or not has_mesh_error(found):
-        return ""
-    return f", moved by the {found.interval.estimate:+.2f} m that half the cell changes"
+    """Say what the bars hold."""
+    mesh = "sampling and mesh" if has_mesh_error(results.discretisation) else "sampling"
+    return f", for {mesh}"
 
 
 def _alt(results: Results, section: Section) -> str:

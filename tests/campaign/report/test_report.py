@@ -304,8 +304,8 @@ def test_a_discretisation_error_is_used_where_it_is_known(campaign):
     known = Results(results.data.assign(pairs), results.scene)
     mean, change = mean_interval(results.slide_runouts, 0.95), 4.303 * 0.5 / np.sqrt(3)
     upper = mean.estimate + 2.0 + np.hypot(mean.half_width, 2 * change)
-    assert f"{mean.estimate + 1.0:.2f} m on average, {mean.lower:.2f} to {upper:.2f} m with 95 %" in answer(known)
-    assert "mesh +1.00 ± 1.24 m, which is what half the cell changes" in answer(known)
+    assert f"{mean.estimate:.2f} m on average, {mean.lower:.2f} to {upper:.2f} m with 95 %" in answer(known)
+    assert "half the cell changes it by +1.00 ± 1.24 m, and the interval holds up to twice that" in answer(known)
     rows = {row.source: row for row in error_budget(known)}
     assert rows["Discretisation"][2:] == ("+1.00 m", "-0.24 to +2.24 m", "3")
     assert rows["Total"].quantity == "mean run-out of a slide, sampling and mesh"
