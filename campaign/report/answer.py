@@ -4,10 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.record import FINAL_RUNOUT, Status
+from campaign.record import Status
 from campaign.report import estimates
 from campaign.results.results import Results
-from campaign.statistics.doubts import detached_fronts, doubts
 from campaign.statistics.intervals import Interval
 from campaign.statistics.stopping import RARE
 from campaign.statistics.total import has_mesh_error
@@ -39,20 +38,8 @@ def answer(results: Results) -> str:
     outcomes = results.outcomes
     if outcomes.usable == 0:
         return f"No answer: {counted(results.realizations, 'realization')}, and none with a result."
-    of_slides = [_runout(results), _walls(results), _spread(results), _farthest(results)] if outcomes.slides else []
+    of_slides = [_runout(results), _cut_short(results), _spread(results), _farthest(results)] if outcomes.slides else []
     return " ".join(filter(None, [_chance(results), *of_slides, _comparison(results), _beyond(results)]))
-
-
-def reasons_for_doubt(results: Results) -> list[str]:
-    """Return sentences on why the run-outs or their intervals may not hold."""
-    unsettled, n = results.by_status()[Status.not_settled], results.outcomes.slides
-    bounds = "is a lower bound" if unsettled == 1 else "are lower bounds"
-    censored = (
-        f"{unsettled:,} of {counted(n, 'run-out')} {bounds}: still moving when the run ended (numerics.end_time)."
-    )
-    volumes, mass_runouts = results.of_slides("detached_volume"), results.of_slides(FINAL_RUNOUT["mass"])
-    apart = detached_fronts(volumes, mass_runouts, results.scene.front_area, results.front)
-    return [*doubts(results.runouts), *apart, *([censored] if unsettled else [])]
 
 
 def outcomes(results: Results) -> list[Outcome]:
@@ -85,10 +72,11 @@ def _runout(results: Results) -> str:
     total, mean = estimates.total_runout(results), estimates.mean_runout(results)
     if not total.is_known:
         return f"That slide ran {mean.estimate:.2f} m. It takes more of them to say how sure that is."
+    least = "at least " if _cut_short(results) else ""
     given = " where it slides" if mean.n < results.outcomes.usable else ""
     return (
-        f"The slide runs {total.estimate:.2f} m on average{given}, {metres(total)} with {100 * results.confidence:g} % "
-        f"confidence: {_parts(results, mean)}."
+        f"The slide runs {least}{total.estimate:.2f} m on average{given}, {metres(total)} with "
+        f"{100 * results.confidence:g} % confidence: {_parts(results, mean)}."
     )
 
 
@@ -103,14 +91,16 @@ def _parts(results: Results, mean: Interval) -> str:
     )
 
 
-def _walls(results: Results) -> str:
-    hindered, slides = results.outcomes.hindered, results.outcomes.slides
-    if not hindered:
-        return ""
-    return (
-        f"This is a lower bound: a wall of the model stopped {hindered:,} of {counted(slides, 'slide')}. "
-        "Give the slope a longer crest and plain."
-    )
+def _cut_short(results: Results) -> str:
+    """Say why a mean is a lower bound."""
+    hindered, slides = results.outcomes.hindered, counted(results.outcomes.slides, "slide")
+    unsettled = results.by_status()[Status.not_settled]
+    causes = {
+        f"a wall of the model stopped {hindered} of {slides}": (hindered, "Give the slope a longer crest and plain."),
+        f"{unsettled} of {slides} still moved when the run ended": (unsettled, "Raise numerics.end_time."),
+    }
+    told = {cause: remedy for cause, (count, remedy) in causes.items() if count}
+    return f"This is a lower bound: {' and '.join(told)}. {' '.join(told.values())}" if told else ""
 
 
 def _spread(results: Results) -> str:

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from campaign.record import Status
 from campaign.report import estimates
 from campaign.results.results import Results
 from campaign.statistics.intervals import Interval
@@ -33,7 +34,7 @@ def error_budget(results: Results) -> list[Row]:
         *_chance(results),
         *_runout(results),
         *_exceedance(results),
-        *_walls(results),
+        *_cut_short(results),
         *_failures(results),
         _discretisation(results),
         _release(results),
@@ -76,18 +77,16 @@ def _probability(name: str, share: Interval) -> Row:
     return Row("Sampling", name, chance(share.estimate), chances(share), str(share.n))
 
 
-def _walls(results: Results) -> list[Row]:
-    hindered, slides = results.outcomes.hindered, results.outcomes.slides
-    if not hindered:
-        return []
+def _cut_short(results: Results) -> list[Row]:
+    """Return what makes a mean a lower bound."""
+    slides, unsettled = results.outcomes.slides, results.by_status()[Status.not_settled]
+    hindered, told = results.outcomes.hindered, counted(slides, "slide")
+    causes = {
+        "Walls": (hindered, f"a wall stopped {hindered} of {told}"),
+        "End of the run": (unsettled, f"{unsettled} of {told} still moved"),
+    }
     return [
-        Row(
-            "Walls",
-            "mean run-out of a slide",
-            "at least",
-            f"a wall stopped {hindered:,} of {counted(slides, 'slide')}",
-            str(slides),
-        )
+        Row(source, "mean run-out of a slide", "at least", why, str(slides)) for source, (n, why) in causes.items() if n
     ]
 
 

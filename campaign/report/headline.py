@@ -7,11 +7,11 @@ import numpy as np
 
 from campaign.record import Status
 from campaign.report import estimates
-from campaign.report.places import reach_estimates
+from campaign.report.places import Reach, reach_estimates
+from campaign.report.raised import goes_ahead
 from campaign.report.wording import bounds
 from campaign.results.results import Results
 from campaign.statistics.intervals import Interval
-from campaign.statistics.receptors import ReceptorEstimate
 from campaign.statistics.total import has_mesh_error
 from campaign.statistics.wording import chance, chance_of_slide, chances
 from campaign.terminal import counted
@@ -64,7 +64,10 @@ def _runouts(results: Results) -> list[Tile]:
         return []
     if slides == 1:
         return [Tile("Run-out of the only slide", f"{results.slide_runouts[0]:.2f} m", "", "more slides tell how sure")]
-    names = {0.5: "Half of the slides stop within", estimates.FAR: f"{100 * estimates.FAR:g} % stop within"}
+    names = {
+        0.5: "Half of the fronts stop within",
+        estimates.FAR: f"{100 * estimates.FAR:g} % stop within",
+    }
     return [_runout(results, name, share) for share, name in names.items()]
 
 
@@ -75,6 +78,12 @@ def _runout(results: Results, name: str, share: float) -> Tile:
 
 
 def _remark(results: Results, total: Interval, share: float) -> str:
+    ahead = goes_ahead(results, share)
+    raised = f"ground is raised as far as {ahead:.1f} m" if ahead is not None else ""
+    return "; ".join(filter(None, [_bounds_known(results, total, share), raised]))
+
+
+def _bounds_known(results: Results, total: Interval, share: float) -> str:
     hindered, unsettled = results.outcomes.hindered, results.by_status()[Status.not_settled]
     reasons = {f"a wall stopped {hindered}": hindered, f"{unsettled} still moved at the end": unsettled}
     if told := " and ".join(reason for reason, count in reasons.items() if count):
@@ -83,8 +92,10 @@ def _remark(results: Results, total: Interval, share: float) -> str:
     return f"both bounds need {needed} slides" if not total.is_known else ""
 
 
-def _reach(each: ReceptorEstimate) -> Tile:
-    remark = f"up to {chance(each.open_bounds[1])} if those cut short got there"
-    if each.open_bounds[1] <= each.interval.upper:
-        remark = ""
-    return Tile(each.receptor, chance(each.interval.estimate), chance_of_slide(each.interval), remark)
+def _reach(each: Reach) -> Tile:
+    front = each.front
+    open_ends = front.open_bounds[1] > front.interval.upper
+    cut_short = f"up to {chance(front.open_bounds[1])} if those cut short got there" if open_ends else ""
+    pushed = f"any moved ground: {chance(each.moved.interval.estimate)}, {chance_of_slide(each.moved.interval)}"
+    remark = "; ".join(filter(None, [cut_short, pushed if each.is_pushed_farther else ""]))
+    return Tile(front.receptor, chance(front.interval.estimate), chance_of_slide(front.interval), remark)

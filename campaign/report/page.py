@@ -10,7 +10,7 @@ import numpy as np
 from campaign.errors import RefusalError
 from campaign.files import write_atomically
 from campaign.report import distances, headline, inputs, places
-from campaign.report.answer import answer, outcomes, reasons_for_doubt
+from campaign.report.answer import answer, outcomes
 from campaign.report.chapters import appendix, chapters
 from campaign.report.choices import modelling_choices
 from campaign.report.distances import Curve, Curves
@@ -24,6 +24,7 @@ from campaign.report.film import SHAPE, Film, films, screen_of
 from campaign.report.moving import LEVELS
 from campaign.report.provenance import doubts_about, provenance
 from campaign.report.replays import Replays, replays
+from campaign.report.reservations import reasons_for_doubt
 from campaign.report.wording import unbroken
 from campaign.results.results import Results, read_results
 from campaign.scene.first_look import look_at

@@ -8,10 +8,9 @@ import numpy as np
 from campaign.report.wording import bounds, number
 from campaign.results.results import Results
 from campaign.scene.sections import Receptor
-from campaign.statistics.intervals import Sample, quantile_interval
+from campaign.statistics.intervals import Interval, Sample, quantile_interval
 from campaign.statistics.receptors import (
     EFFECTS,
-    FRONT_REACHES,
     QUANTILES,
     REACHED,
     ReceptorEstimate,
@@ -22,9 +21,13 @@ from campaign.statistics.wording import chance, chances
 MOVEMENT = {
     "sliding_volume": "ground that slides, per metre of width",
     "retrogression": "length lost behind the crest",
-    "settle_time": "time from release to rest",
 }
 """Scalars of a slide, and what they are called."""
+
+REST = "time from release to rest"
+
+STILL_MOVING = 1e99
+"""Time in s that stands for a rest after the end of the run, so that quantiles know of it."""
 
 ARRIVAL = "arrival after the release"
 
@@ -39,6 +42,18 @@ class Distribution(NamedTuple):
     far_interval: str
 
 
+class Reach(NamedTuple):
+    """How probable it is that the front, and that any moved ground, reaches a receptor."""
+
+    front: ReceptorEstimate
+    moved: ReceptorEstimate
+
+    @property
+    def is_pushed_farther(self) -> bool:
+        """Whether ground that is pushed or thrown ahead gets there more often than the front."""
+        return self.moved.interval.estimate > self.front.interval.estimate
+
+
 class Place(NamedTuple):
     """A receptor: where it is, how probable it is that something comes, and what comes."""
 
@@ -51,11 +66,25 @@ class Place(NamedTuple):
 
 def movement(results: Results) -> list[Distribution]:
     """Return how the ground moves in the slides."""
-    return [
+    rows = [
         distribution(name, results.of_slides(quantity), results.data[quantity].units, results.confidence)
         for quantity, name in MOVEMENT.items()
         if np.isfinite(results.of_slides(quantity)).any()
     ]
+    return [*rows, _rest(results)] if results.outcomes.slides else rows
+
+
+def _rest(results: Results) -> Distribution:
+    """Return when slides come to rest; those that still move at the end do so later than all others."""
+    times = np.nan_to_num(results.of_slides("settle_time"), nan=STILL_MOVING)
+    columns: list[str] = []
+    for share in QUANTILES:
+        interval = quantile_interval(times, share, results.confidence)
+        estimate, lower, upper = (value if value < STILL_MOVING / 1e6 else np.nan for value in interval[:3])
+        is_later = np.isnan(estimate)
+        columns += ["later than the end" if is_later else number(estimate, "s")]
+        columns += ["" if is_later else bounds(Interval(estimate, lower, upper, interval.n), "s")]
+    return Distribution(REST, *columns)
 
 
 def stillness(results: Results) -> list[Distribution]:
@@ -66,10 +95,11 @@ def stillness(results: Results) -> list[Distribution]:
     return [distribution("largest movement of any ground", 1000.0 * largest, "mm", results.confidence)]
 
 
-def reach_estimates(results: Results) -> list[ReceptorEstimate]:
-    """Return for each receptor how probable it is that a slide's front gets there, if that is known."""
-    estimated = receptor_estimates(results.data, results.confidence)
-    return [each for each in estimated if each.quantity == FRONT_REACHES and each.interval.n]
+def reach_estimates(results: Results) -> list[Reach]:
+    """Return for each receptor how probable it is that a slide gets there, if that is known."""
+    known = [each for each in receptor_estimates(results.data, results.confidence) if each.interval.n]
+    fronts, moved = ([each for each in known if each.quantity == called] for called in REACHED.values())
+    return [Reach(*pair) for pair in zip(fronts, moved, strict=True)]
 
 
 def places(results: Results) -> list[Place]:

@@ -2,10 +2,11 @@
 
 from textwrap import fill
 
-from campaign.report.answer import answer, outcomes, reasons_for_doubt
+from campaign.report.answer import answer, outcomes
 from campaign.report.choices import modelling_choices
 from campaign.report.error_budget import Row, error_budget
 from campaign.report.inputs import sentences
+from campaign.report.reservations import reasons_for_doubt
 from campaign.results.results import Results
 from campaign.statistics.receptors import receptor_estimates
 from campaign.statistics.wording import chance, chances

@@ -16,10 +16,8 @@ from campaign.record import LOWER_BOUND
 from campaign.statistics.intervals import Interval, Sample, quantile_interval, unknown
 from campaign.statistics.proportions import exact_interval
 
-FRONT_REACHES = "probability that the slide's front reaches it"
-
 REACHED = {
-    "front_reaches": FRONT_REACHES,
+    "front_reaches": "probability that the slide's front reaches it",
     "moved_ground_reaches": "probability that any moved ground reaches it",
 }
 """What may reach a receptor, and what the probability of that is called."""

@@ -9,10 +9,9 @@ from campaign.report import estimates
 from campaign.report.figures.labels import Label
 from campaign.report.figures.section import Section
 from campaign.report.figures.style import BLACK, BLUE, ORANGE
-from campaign.report.places import reach_estimates
+from campaign.report.places import Reach, reach_estimates
 from campaign.report.wording import bounds
 from campaign.results.results import Results
-from campaign.statistics.receptors import ReceptorEstimate
 from campaign.statistics.wording import chance, chances
 
 STOPS: Final = {0.5: "half", estimates.FAR: f"{100 * estimates.FAR:g} %"}
@@ -60,11 +59,15 @@ def draw_total_intervals(axes: Axes, results: Results, section: Section) -> None
 
 def _receptors(results: Results, section: Section) -> list[Label]:
     near = {receptor.name: receptor.x[0] for receptor in results.scene.receptor}
-    return [_receptor(each, near[each.receptor], section) for each in reach_estimates(results)]
+    return [_receptor(each, near[each.front.receptor], section) for each in reach_estimates(results)]
 
 
-def _receptor(each: ReceptorEstimate, near: float, section: Section) -> Label:
-    ground = float(section.surface.height_at(np.array([near]))[0])
-    share = chance(each.interval.estimate)
-    told = f"probability that a slide reaches {each.receptor}: {share} ({chances(each.interval)})"
-    return Label(near, ground, f"{each.receptor}: {share}", ORANGE, told)
+def _receptor(each: Reach, near: float, section: Section) -> Label:
+    ground, front = float(section.surface.height_at(np.array([near]))[0]), each.front
+    share, name = chance(front.interval.estimate), front.receptor
+    told = f"probability that the slide's front reaches {name}: {share} ({chances(front.interval)})"
+    words = f"{name}: {share}"
+    if each.is_pushed_farther:
+        moved = chance(each.moved.interval.estimate)
+        told, words = f"{told}; that any moved ground does: {moved}", f"{words}, moved ground {moved}"
+    return Label(near, ground, words, ORANGE, told)

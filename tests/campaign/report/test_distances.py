@@ -6,7 +6,7 @@ import xarray as xr
 from small_campaign import small_scene
 
 from campaign.record import Status
-from campaign.report import distances, headline
+from campaign.report import distances, headline, places
 from campaign.report.wording import bounds, number, unbroken
 from campaign.results.results import Results
 from campaign.statistics.intervals import Interval
@@ -15,14 +15,22 @@ from campaign.statistics.proportions import proportion_interval
 SCENE = small_scene()
 
 
-def results(runouts, statuses):
-    n = len(runouts)
+def results(runouts, statuses, raised=None, rest=None):
+    """Return results of slides that raise ground by 1 m up to `raised` m from the toe, or as far as their fronts."""
+    n, x = len(runouts), np.arange(0.0, 120.0, 0.5)
+    reach = np.nan_to_num(np.array(runouts if raised is None else raised, dtype=float))
     data = {
+        "x": ("x", x),
+        "initial_surface": ("x", np.zeros(x.size)),
+        "deposit_surface": (("realization", "x"), (x <= reach[:, None]).astype(float)),
+        "settle_time": ("realization", np.full(n, 5.0) if rest is None else np.array(rest)),
+        "sliding_volume": ("realization", np.ones(n), {"units": "m3/m"}),
+        "retrogression": ("realization", np.ones(n), {"units": "m"}),
         "final_runout": ("realization", np.array(runouts, dtype=float)),
         "final_runout_mass": ("realization", np.array(runouts, dtype=float)),
         "status": ("realization", np.array([int(each) for each in statuses])),
     }
-    return Results(xr.Dataset(data, {"realization": np.arange(n)}), SCENE)
+    return Results(xr.Dataset(data, {"realization": np.arange(n)}, {"toe_x": 0.0}), SCENE)
 
 
 def table(given):
@@ -93,6 +101,26 @@ def test_walls_and_failures_are_told_first():
     probability, median, _ = headline.tiles(results([*np.arange(1.0, 11.0), np.nan], statuses))
     assert probability.remark == "10 of 10 simulated slopes slid; 1 failed"
     assert median.remark == "lower bound: of 10 slides a wall stopped 1 and 1 still moved at the end"
+
+
+def test_ground_raised_ahead_of_the_fronts_is_told_beside_them():
+    """Fronts stop after 1 to 100 m, and the ground they push is raised 12 m farther."""
+    runouts = np.arange(1.0, 101.0)
+    _, median, far = headline.tiles(results(runouts, [Status.slid] * 100, runouts + 12.0))
+    assert median.remark == "ground is raised as far as 62.5 m"
+    assert far.remark == "ground is raised as far as 107.0 m"
+
+
+def test_a_rest_after_the_end_is_later_than_the_others():
+    """Of 20 slides 8 rest after 1 to 8 s: half of them do so after the end of the run; of 12, half within 10.5 s."""
+
+    def told(settled):
+        rest = [*np.arange(1.0, settled + 1.0), *[np.nan] * (20 - settled)]
+        return places.movement(results(np.arange(1.0, 21.0), [Status.slid] * 20, rest=rest))[-1]
+
+    assert told(8).median == "later than the end"
+    assert (told(12).median, told(12).median_interval) == ("10.5 s", "at least 6.00 s")
+    assert told(20).far_interval.startswith("at least")
 
 
 def test_units_are_those_of_a_reader():

@@ -158,7 +158,7 @@ def test_the_chapters_stand_in_their_order(page):
 def test_the_first_screen_has_the_answer_before_the_words(page):
     first = page.text[: page.text.index("1. Where")]
     assert re.search(r"Probability of a slide ?at least 74 %", first)
-    assert re.search(r"Half of the slides stop within ?\d+\.\d m", first)
+    assert re.search(r"Half of the fronts stop within ?\d+\.\d m", first)
     assert re.search(r"95 % stop within ?\d+\.\d m ?at least", first)
 
 
