@@ -1,5 +1,7 @@
 """The answer of a campaign in words, for the terminal and the report."""
 
+import re
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -7,6 +9,7 @@ import numpy as np
 from campaign.record import Status
 from campaign.report import estimates
 from campaign.results.results import Results
+from campaign.simulation.flags import AHEAD_WALL, CREST_WALL
 from campaign.statistics.intervals import Interval
 from campaign.statistics.stopping import RARE
 from campaign.statistics.total import has_mesh_error
@@ -25,6 +28,10 @@ OUTCOMES = {
 }
 
 
+VARYING = re.compile(r"[\d.]+(?= s\b| ?%)")
+"""Numbers of a reason that are those of one realization."""
+
+
 class Outcome(NamedTuple):
     """How many realizations ended in one way, and why they say they failed."""
 
@@ -37,7 +44,8 @@ def answer(results: Results) -> str:
     """Return the result in a paragraph, the number that was asked for first."""
     outcomes = results.outcomes
     if outcomes.usable == 0:
-        return f"No answer: {counted(results.realizations, 'realization')}, and none with a result."
+        none = f"No answer: {counted(results.realizations, 'realization')}, and none with a result."
+        return " ".join(filter(None, [none, why_failed(results)]))
     of_slides = [_runout(results), _cut_short(results), _spread(results), _farthest(results)] if outcomes.slides else []
     return " ".join(filter(None, [_chance(results), *of_slides, _comparison(results), _beyond(results)]))
 
@@ -46,10 +54,23 @@ def outcomes(results: Results) -> list[Outcome]:
     """Return how the realizations ended, with the distinct reasons of failures."""
     reasons, status = results.data["reason"].values, results.data["status"].values
     return [
-        Outcome(count, OUTCOMES[each], sorted({str(reason) for reason in reasons[status == int(each)]} - {""}))
+        Outcome(count, OUTCOMES[each], alike(reasons[status == int(each)]))
         for each, count in results.by_status().items()
         if count
     ]
+
+
+def alike(reasons: Iterable[object]) -> list[str]:
+    """Return one of the reasons that differ in times and shares alone, the most frequent kind first."""
+    kinds: dict[str, list[str]] = {}
+    for reason in filter(None, map(str, reasons)):
+        kinds.setdefault(VARYING.sub("", reason), []).append(reason)
+    return [kind[0] for kind in sorted(kinds.values(), key=len, reverse=True)]
+
+
+def why_failed(results: Results) -> str:
+    """Return the most frequent reason of failures, "" without one."""
+    return next(iter(alike(results.data["reason"].values[results.has_failed])), "")
 
 
 def _chance(results: Results) -> str:
@@ -96,11 +117,24 @@ def _cut_short(results: Results) -> str:
     hindered, slides = results.outcomes.hindered, counted(results.outcomes.slides, "slide")
     unsettled = results.by_status()[Status.not_settled]
     causes = {
-        f"a wall of the model stopped {hindered} of {slides}": (hindered, "Give the slope a longer crest and plain."),
+        f"{walls_in_words(results)} stopped {hindered} of {slides}": (hindered, "Lengthen the ground there."),
         f"{unsettled} of {slides} still moved when the run ended": (unsettled, "Raise numerics.end_time."),
     }
     told = {cause: remedy for cause, (count, remedy) in causes.items() if count}
     return f"This is a lower bound: {' and '.join(told)}. {' '.join(told.values())}" if told else ""
+
+
+def walls_in_words(results: Results) -> str:
+    """Say which wall of the model was in the way, or which of them."""
+    reasons = [str(each) for each in results.data["reason"].values[results.has_status([Status.reached_wall])]]
+    names = {
+        "behind the crest (geometry.slope.crest)": CREST_WALL,
+        "ahead of the slope (geometry.slope.plain)": AHEAD_WALL,
+    }
+    if results.scene.geometry.slope is None:
+        names = {name.partition(" (")[0]: sentence for name, sentence in names.items()}
+    met = [name for name, sentence in names.items() if any(sentence.partition(" (x")[0] in each for each in reasons)]
+    return f"the wall {' or that '.join(met)}" if met else "a wall of the model"
 
 
 def _spread(results: Results) -> str:

@@ -112,6 +112,8 @@ def _discretisation(results: Results) -> Row:
     found = results.discretisation
     if found is None:
         remedy = "give campaign.discretisation_pairs, or repeat the campaign with half the cell and compare"
+        if results.scene.campaign.discretisation_pairs:
+            remedy = "the campaign ended before its pairs with half the cell"
         return Row("Discretisation", "mean run-out of a slide", NOT_ESTIMATED, remedy, "")
     change, name = found.interval, f"mean run-out of a slide, changed by cells of {found.cell / 2:g} m"
     if change.n == 0:

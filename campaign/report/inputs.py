@@ -13,6 +13,7 @@ from campaign.statistics.intervals import Interval
 from campaign.statistics.sensitivity import Ranking
 from campaign.statistics.sensitivity_map import SensitivityMap
 from campaign.statistics.wording import chance
+from campaign.terminal import counted
 
 TENTH = f"{100 * MORE:g} % more"
 
@@ -79,22 +80,36 @@ def _effect_row(results: Results, key: str, effect: Interval) -> EffectRow:
     changed, scene = BY_KEY[key], results.scene
     value, cov = value_of(scene, key) or 0.0, value_of(scene, changed.cov_key) if changed.cov_key else None
     values = f"{shown(raised(scene, changed), changed)} instead of {shown(value, changed)}"
-    deviation = f"{cov / MORE * effect.estimate:+.2f} m for {100 * cov:g} %" if cov and effect.n else ""
+    deviation = f"{_changed(_times(effect, cov / MORE))} for {100 * cov:g} %" if cov and effect.n else ""
     return EffectRow(changed.name, values, _changed(effect), str(effect.n), deviation)
 
 
+def _times(effect: Interval, factor: float) -> Interval:
+    """Return a positive multiple of an effect."""
+    return Interval(factor * effect.estimate, factor * effect.lower, factor * effect.upper, effect.n)
+
+
 def _largest(results: Results) -> str:
-    """Name the inputs that change the run-out most."""
+    """Name the inputs that change the run-out most, of those whose effect can be told from none."""
     found = effects_of(results)
     known = {} if found is None else found.known()
-    if not known:
+    if found is None or not known:
         return ""
-    (key, effect), *others = [*known.items()][:NAMED]
+    slides = next(iter(known.values())).n
+    of_all = f"Of {counted(len(known), 'input')}, each raised alone by {100 * MORE:g} %,"
+    again = f"{counted(slides, 'slide')} {'was' if slides == 1 else 'were'} computed again for each."
+    if not found.clear():
+        return (
+            f"{of_all} none has an effect on the run-out of a slide that can be told from none: {again} A larger "
+            "campaign.sensitivity_pairs may tell more."
+        )
+    (key, effect), *others = [*found.clear().items()][:NAMED]
     then = " and ".join(f"{BY_KEY[other].name}, {_changed(each)}" for other, each in others)
+    unclear = len(known) - len(found.clear())
+    rest = f" The effect of {unclear} of them cannot be told from none." if unclear else ""
     return (
-        f"Of {len(known)} inputs, each raised alone by {100 * MORE:g} %, {BY_KEY[key].name} changes the run-out of a "
-        f"slide most, by {_changed(effect)}{f'; next come {then}' if then else ''}. {effect.n} "
-        f"{'slides were' if effect.n > 1 else 'slide was'} computed again for each."
+        f"{of_all} {BY_KEY[key].name} changes the run-out of a slide most, by {_changed(effect)}"
+        f"{f'; next come {then}' if then else ''}.{rest} {again[0].upper()}{again[1:]}"
     )
 
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from campaign.record import FINAL_RUNOUT, Status
 from campaign.report import estimates
+from campaign.report.answer import walls_in_words, why_failed
 from campaign.report.raised import goes_ahead, least_rise
 from campaign.results.results import Results
 from campaign.statistics.doubts import detached_fronts, doubts
@@ -21,11 +22,12 @@ def reasons_for_doubt(results: Results) -> list[str]:
 
 def _failed(results: Results) -> str:
     failed = int(np.count_nonzero(results.has_failed))
-    if failed <= results.scene.campaign.max_failed_fraction * results.realizations:
+    if not results.outcomes.usable or failed <= results.scene.campaign.max_failed_fraction * results.realizations:
         return ""
+    why = f" (the most frequent reason: {why_failed(results).rstrip('.')})" if why_failed(results) else ""
     return (
-        f"{failed} of {counted(results.realizations, 'realization')} failed; what is told of the others need not hold "
-        "for those."
+        f"{failed} of {counted(results.realizations, 'realization')} failed{why}. What is told of the "
+        "others need not hold for those."
     )
 
 
@@ -33,7 +35,10 @@ def _hindered(results: Results) -> str:
     hindered, slides = results.outcomes.hindered, results.outcomes.slides
     if not hindered:
         return ""
-    return f"A wall of the model stopped {hindered} of {counted(slides, 'slide')}, which would have come farther."
+    wall = walls_in_words(results)
+    return (
+        f"{wall[0].upper()}{wall[1:]} stopped {hindered} of {counted(slides, 'slide')}, which would have come farther."
+    )
 
 
 def _ahead(results: Results) -> str:

@@ -6,9 +6,9 @@ from campaign.report.answer import answer, outcomes
 from campaign.report.choices import modelling_choices
 from campaign.report.error_budget import Row, error_budget
 from campaign.report.inputs import sentences
+from campaign.report.places import reach_estimates
 from campaign.report.reservations import reasons_for_doubt
 from campaign.results.results import Results
-from campaign.statistics.receptors import receptor_estimates
 from campaign.statistics.wording import chance, chances
 from campaign.terminal import counted
 
@@ -35,13 +35,14 @@ def summary(results: Results) -> str:
 
 
 def _places(results: Results) -> list[str]:
-    """Return a line for each probability that a slide reaches a receptor, below a heading; nothing without any."""
-    probabilities = [each for each in receptor_estimates(results.data, results.confidence) if each.unit == "1"]
-    heading = ["At the places asked about"] if probabilities else []
-    return heading + [
+    """Return lines on whether slides reach receptors, below a heading; nothing without receptors or results."""
+    known = reach_estimates(results)
+    lines = [
         f"  {each.receptor:16}{each.quantity}: {chance(each.interval.estimate)} ({chances(each.interval)})"
-        for each in probabilities
+        for reach in known
+        for each in reach
     ]
+    return ["At the places asked about", *lines] if lines else []
 
 
 def _words(row: Row) -> str:

@@ -13,6 +13,8 @@ MORE = 0.1
 
 SOFTENING = "soil.softening."
 
+INTERNAL_LENGTH = f"{SOFTENING}internal_length"
+
 
 class Input(NamedTuple):
     """A positive number of a scene.
@@ -36,7 +38,7 @@ INPUTS = (
     Input("soil.softening.rate", "softening rate"),
     Input("soil.softening.slip_to_residual", "slip to residual strength"),
     Input("soil.softening.reference_cell", "reference cell of softening"),
-    Input("soil.softening.internal_length", "internal length of softening"),
+    Input(INTERNAL_LENGTH, "internal length of softening"),
     *(Input(row.mean_key, f"mean {row.long_name}", row.cov_key) for row in PROPERTIES),
     Input("soil.unit_weight", "unit weight"),
     Input("soil.young_modulus", "Young's modulus"),
@@ -47,8 +49,12 @@ BY_KEY = {row.key: row for row in INPUTS}
 
 
 def inputs_of(scene: Scene) -> tuple[Input, ...]:
-    """Return the inputs that a scene has and that count in it."""
-    unused = SOFTENING if scene.soil.softening.law == "none" else "-"
+    """Return the inputs that a scene has and that count in it.
+
+    Where the slip to residual strength is given, the internal length moves the rate and not what a slip weakens.
+    """
+    softening = scene.soil.softening
+    unused = SOFTENING if softening.law == "none" else INTERNAL_LENGTH if softening.slip_to_residual else "-"
     return tuple(row for row in INPUTS if value_of(scene, row.key) and not row.key.startswith(unused))
 
 

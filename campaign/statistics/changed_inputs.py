@@ -53,6 +53,10 @@ class InputEffects(NamedTuple):
         """Return the effects of which something is known, the largest first."""
         return {key: effect for key, effect in self.ranked().items() if effect.n}
 
+    def clear(self) -> dict[str, Interval]:
+        """Return the effects that can be told from none, the largest first."""
+        return {key: effect for key, effect in self.known().items() if effect.lower > 0.0 or effect.upper < 0.0}
+
 
 def first_slides(tally: Tally, count: int) -> tuple[int, ...]:
     """Return the first slides of a whole campaign, without those that a wall was in the way of."""

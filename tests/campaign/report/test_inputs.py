@@ -41,6 +41,16 @@ def test_the_input_with_the_largest_effect_is_named_first(results):
     assert "(peak cohesion around x = " in told[2]
 
 
+def test_effects_lost_in_their_scatter_are_not_ranked(results):
+    """Four slides with changes of +-3 m: an interval that holds 0 for every input."""
+    lost = np.broadcast_to([3.0, -3.0, 3.1, -3.1], results.data["input_difference"].shape)
+    data = results.data.assign(input_difference=(results.data["input_difference"].dims, lost))
+    assert sentences(Results(data, results.scene))[0] == (
+        "Of 8 inputs, each raised alone by 10 %, none has an effect on the run-out of a slide that can be told from "
+        "none: 4 slides were computed again for each. A larger campaign.sensitivity_pairs may tell more."
+    )
+
+
 def test_rows_are_in_the_order_of_effect(results):
     rows = effect_rows(results)
     assert rows[0].name == "softening rate"
@@ -48,7 +58,7 @@ def test_rows_are_in_the_order_of_effect(results):
     assert sizes == sorted(sizes, reverse=True)
     cohesion = next(row for row in rows if row.name == "mean peak cohesion")
     assert (cohesion.values, cohesion.pairs) == ("22 kPa instead of 20 kPa", "4")
-    assert cohesion.per_deviation == f"{cohesion.change.split()[0]} m for 10 %"
+    assert cohesion.per_deviation == f"{cohesion.change} for 10 %"
     assert [row.name for row in property_rows(results)] == ["peak cohesion", "peak friction angle"]
 
 

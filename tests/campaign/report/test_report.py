@@ -269,7 +269,7 @@ def test_a_wall_makes_lower_bounds_and_is_told(tmp_path, ground):
 def test_nothing_but_failures(tmp_path, ground):
     page = made_up_page(tmp_path, ground, [np.nan] * 12, [Status.crashed] * 12, baseline=Status.diverged)
     assert "failed: crashed" in page.text
-    assert "No answer: 10 realizations, and none with a result." in page.text
+    assert "No answer: 10 realizations, and none with a result. a reason" in page.text
     assert error_budget(read_results(tmp_path))[0].value == "no realization with a result"
     assert "a reason <b>&" in page.text
     assert page.figures == []
