@@ -19,7 +19,7 @@ from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, TYPICAL_SLI
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.outlook import outlook
 from campaign.scene.sections import Softening
-from campaign.scene.softening import RING_SHEAR, softening_words
+from campaign.scene.softening import RING_SHEAR, is_brittle, softening_words
 from campaign.simulation.field_size import FieldSize
 from campaign.terminal import data_size, duration
 
@@ -35,7 +35,7 @@ def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
         "toe": _toe(scene, look),
         "factor of safety": _factors(look),
         "softening": _softening(scene.soil.softening),
-        "what to expect": outlook(look),
+        "what to expect": outlook(look, is_brittle(scene, look.height)),
         "time": _time(scene, look),
         "mesh": _mesh(scene),
         "random field": _field(size),

@@ -36,6 +36,7 @@ def error_budget(results: Results) -> list[Row]:
         *_exceedance(results),
         *_cut_short(results),
         *_failures(results),
+        *_unknown_to_the_mesh(results),
         _discretisation(results),
         _release(results),
         _energy(results),
@@ -106,6 +107,14 @@ def _whatever_failed(name: str, count: int, usable: int, failed: int) -> Row:
     return Row(
         "Failures", f"{name}, whatever the failed would have done", f"{failed} failed", bounds, str(usable + failed)
     )
+
+
+def _unknown_to_the_mesh(results: Results) -> list[Row]:
+    """Return that nobody has measured what the mesh does to the probability of a slide, where it is in doubt."""
+    slides = results.outcomes.slides
+    remedy = "repeat the campaign with half the cell and compare"
+    is_open = 0 < slides < results.outcomes.usable
+    return [Row("Discretisation", "probability of a slide", NOT_ESTIMATED, remedy, "")] if is_open else []
 
 
 def _discretisation(results: Results) -> Row:

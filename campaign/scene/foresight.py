@@ -9,6 +9,7 @@ from campaign.scene.first_look import LONGEST_SLIDE, TYPICAL_SLIDE, FirstLook
 from campaign.scene.front import front_of_particles, front_of_the_slide
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
+from campaign.scene.softening import is_brittle
 from campaign.scene.toe import misplaced_toe
 from campaign.terminal import duration, rounded_up
 from solver.surface import Surface
@@ -16,9 +17,12 @@ from solver.surface import Surface
 ABSURD_FACTOR = 5.0
 """Factor of safety beyond which a strength is more likely a slip of the pen than a soil."""
 
-LONGEST_RUNOUT, SAFE_RUNOUT = 1.3, 1.5
+RUNOUTS, BRITTLE_RUNOUTS = (0.3, 1.2), (1.3, 3.3)
 """In heights of the slope. Deterministic runs of `ma2023` and its variants (mean factors of safety of 0.6 to 0.9,
-residual ones of 0.1 to 0.5, 30 to 60 degrees, 6 to 30 m high) ran out 0.3 to 1.2 heights."""
+residual ones of 0.1 to 0.5, 30 to 60 degrees, 6 to 30 m high), and realizations of brittle slopes of 12 and 18 m."""
+
+CLEARANCE = 1.1
+"""Length of the ground beyond the toe over the longest of those, from which on it is not remarked on."""
 
 CLEAR_CELLS = 2.0
 """Distance of a slip surface from a wall, in cells, below which the wall decides where it begins."""
@@ -99,12 +103,14 @@ def short_run(scene: Scene, look: FirstLook) -> Complaint | None:
 
 def short_ground(scene: Scene, look: FirstLook) -> Complaint | None:
     """Warn of a wall that slides will reach."""
-    length, needed = look.surface.width - look.surface.toe_x, SAFE_RUNOUT * look.height
-    if length >= LONGEST_RUNOUT * look.height or not _driven(look):
+    length = look.surface.width - look.surface.toe_x
+    shortest, longest = BRITTLE_RUNOUTS if is_brittle(scene, look.height) else RUNOUTS
+    if length >= CLEARANCE * longest * look.height or not _driven(look):
         return None
+    needed = CLEARANCE**2 * longest * look.height
     text = (
-        f"slides of {look.height:g} m mostly run out 0.3 to 1.2 times their height, and the wall {length:g} m beyond "
-        "the toe will hold them back"
+        f"slides of {look.height:g} m mostly run out {shortest:g} to {longest:g} times their height, and the wall "
+        f"{length:g} m beyond the toe will hold them back"
     )
     return longer_plain(scene, look.surface, needed, text)
 

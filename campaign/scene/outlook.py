@@ -9,14 +9,21 @@ BARELY_STABLE = 1.3
 """Factor of safety below which the release of strength, or softening, may still start a slide."""
 
 
-def outlook(look: FirstLook) -> str:
-    """Say what the factors of safety let expect, in sentences."""
+PROGRESSIVE = 1.2
+"""Factor of safety up to which a brittle slope may slide, as softening begins where the ground is weak and spreads. In a
+benched cut of 18 m (slip to residual strength 0.4 m, residual factor 0.5) 60 of 60 realizations slid at 1.04, where
+one strength everywhere foretells 36 %, 7 of 10 at 1.11 (19 %), 6 of 10 at 1.14 (14 %), 4 of 10 at 1.17 (11 %) and 2 of
+24 at 1.27 (4 %)."""
+
+
+def outlook(look: FirstLook, is_brittle: bool = False) -> str:
+    """Say what the factors of safety let expect, in sentences; whether the slope is brittle says `is_brittle`."""
     if look.peak is None:
         return "No circle gives a factor of safety here; only a run tells."
     if look.slide_probability >= CERTAIN:
         return f"Nearly every realization slides.{_end(look)}"
     if look.slide_probability > 1.0 - CERTAIN:
-        return f"Some realizations slide: {_between(look)}.{_end(look)}"
+        return f"Some realizations slide: {_between(look, is_brittle)}.{_end(look)}"
     if look.peak.factor < BARELY_STABLE and look.residual is not None and look.residual.factor < 1.0:
         return (
             "Hardly any realization slides by this measure, but softening can start a slide where the factor of safety "
@@ -25,13 +32,16 @@ def outlook(look: FirstLook) -> str:
     return "No realization is expected to slide."
 
 
-def _between(look: FirstLook) -> str:
+def _between(look: FirstLook, is_brittle: bool) -> str:
     share = look.slide_probability
+    one = f"{share:.0%} if each had one strength everywhere (standard deviation of the factor {look.spread:.2g})"
+    if is_brittle and look.residual is not None and look.residual.factor < 1.0:
+        return (
+            f"{one}, and more, perhaps most, where softening is as quick as here: it begins where the ground is weak "
+            f"and spreads, so that even slopes with a factor of about {PROGRESSIVE:g} may slide"
+        )
     direction = "more" if share > 0.5 else "fewer"
-    return (
-        f"{share:.0%} if each had one strength everywhere (standard deviation of the factor {look.spread:.2g}), "
-        f"{direction} where strength varies within the slope and averages out"
-    )
+    return f"{one}, {direction} where strength varies within the slope and averages out"
 
 
 def _end(look: FirstLook) -> str:

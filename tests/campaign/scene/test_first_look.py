@@ -107,3 +107,19 @@ def look(peak, residual, spread=0.05):
 )
 def test_the_factors_of_safety_are_told_as_what_will_happen(peak, residual, words):
     assert re.search(words, outlook(look(peak, residual)))
+
+
+@pytest.mark.parametrize(
+    ("peak", "residual", "words"),
+    [
+        (1.04, 0.5, "Some realizations slide: 21% .*and more, perhaps most, where softening is as quick"),
+        (1.1, 0.5, "even slopes with a factor of about 1.2 may slide"),
+        (1.04, 1.0, "fewer where strength varies"),
+        (1.27, 0.5, "softening can start a slide"),
+    ],
+)
+def test_quick_softening_spreads_and_is_not_averaged_out(peak, residual, words):
+    """Progressive failure: 60 of 60 slid at a factor of 1.04."""
+    told = outlook(look(peak, residual), is_brittle=True)
+    assert re.search(words, told)
+    assert ("fewer" in told) == (residual >= 1.0)

@@ -33,7 +33,7 @@ def test_the_built_in_scenes_are_sound(source):
         (["numerics.end_time=1 s"], "but half of comparable slides take more than 10 s to come to rest"),
         (["numerics.gravity=ramp"], "after the ramp of 2 s to come to rest"),
         (["geometry.slope.plain=3 m"], '--set geometry.slope.plain is "3 m", but slides of 15 m mostly run out'),
-        ([PROFILE], "the wall 10 m beyond the toe will hold them back; continue the ground to x = 58 m or farther"),
+        ([PROFILE], "the wall 10 m beyond the toe will hold them back; continue the ground to x = 57 m or farther"),
         (["geometry.slope.crest=4 m", "soil.cohesion.residual=4 kPa"], "begins at the wall on the left"),
         (["soil.friction_angle.mean=0.1 deg", "soil.friction_angle.residual=0 deg", "geometry.slope.angle=25 deg"],
          "m above the fixed base, which then holds the slope; if there is no rock, deepen the foundation"),
