@@ -10,12 +10,16 @@ from campaign.commands.completion import HELP, SHELLS, PrintCompletion
 from campaign.commands.version import PrintVersion
 from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
+from campaign.running.launcher import refuse_several
 from campaign.terminal import let_go
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
 DEFAULT = ["run", "ma2023"]
 """What is done without arguments."""
+
+SHARED = "run"
+"""The command that several processes carry out together."""
 
 DESCRIPTION = """\
 How far will this slope run, and how sure are we? Without a command, "campaign" computes the built-in scene ma2023
@@ -40,9 +44,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _carry_out(options: argparse.Namespace) -> ExitCode:
     try:
+        if options.command != SHARED:
+            refuse_several(options.command, os.environ)
         code: ExitCode = options.carry_out(options)
     except CampaignError as refusal:
-        print(refusal, file=sys.stderr)
+        if str(refusal):
+            print(refusal, file=sys.stderr)
         return ExitCode.REFUSED
     except BrokenPipeError:  # whoever watched has seen enough
         return ExitCode.DONE
@@ -68,5 +75,5 @@ def parser() -> argparse.ArgumentParser:
         module = import_module(f"campaign.commands.{name}")
         command = commands.add_parser(name, help=module.HELP)
         module.add_arguments(command)
-        command.set_defaults(carry_out=module.carry_out)
+        command.set_defaults(carry_out=module.carry_out, command=name)
     return top

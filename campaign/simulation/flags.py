@@ -38,3 +38,8 @@ def flags(model: Model, walls: Walls, values: Mapping[str, Value]) -> str:
         ON_THE_BASE.format(share=values["base_contact"]): on_the_base,
     }
     return " ".join(sentence for sentence, holds in sentences.items() if holds)
+
+
+def without_debris(reason: str) -> str:
+    """Return what has to be said of a march, but for debris ahead of it, which is in nobody's way."""
+    return reason.replace(CAME_APART, "").strip()

@@ -99,12 +99,17 @@ def _row(trial: Trial, found: Tradeoff) -> tuple[str, ...]:
     marks = [
         "reference" if trial is reference else "",
         "recommended" if trial is found.recommended else "",
-        "front" if trial in found.front else "",
+        "nearest at its cost" if trial in found.front else "",
         trial.reason,
     ]
     known = "" if trial.failures else f"{trial.rms(reference):.3f}"
     mean = "" if trial.failures else f"{trial.bias(reference):+.3f}"
-    return (trial.setting, f"{trial.seconds:.3g}", known, mean, str(trial.failures), ", ".join(filter(None, marks)))
+    return (trial.setting, f"{trial.seconds:.3g}", known, mean, _failed(trial), ", ".join(filter(None, marks)))
+
+
+def _failed(trial: Trial) -> str:
+    """Say how many runs gave no run-out, of how many: the one with mean strengths is one of them."""
+    return f"{trial.failures} of {len(trial.runouts)}" if trial.failures else "0"
 
 
 def _draw(found: Tradeoff, path: Path) -> None:

@@ -18,9 +18,11 @@ from campaign.scene import Scene, kept_scene
 from campaign.scene.cost import realization_seconds
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import Interrupted
+from campaign.simulation.flags import without_debris
 from campaign.simulation.ground import Ground, prepare
 from campaign.statistics.intervals import Sample
 from campaign.terminal import duration
+from solver.timestep import largest_courant
 
 NEAR = 0.05
 """Of the reference's run-out: a setting this near is good enough to be recommended."""
@@ -136,6 +138,21 @@ def settings(scene: Scene) -> list[str]:
     ]
 
 
+def needed(scene: Scene, setting: str) -> list[str]:
+    """Return what a basis or a stress update needs beside it: a stable Courant number, and no averages of wide domains.
+
+    Those that are unstable at any Courant number need what is not there.
+    """
+    key, value = setting.split("=")
+    own = scene.numerics.model_dump() | {key.partition(".")[2]: value}
+    if key not in ("numerics.basis", "numerics.stress_update"):
+        return []
+    largest = largest_courant(own["basis"], own["stress_update"])
+    step = [f"numerics.courant={largest:g}"] if 0.0 < largest < scene.numerics.courant else []
+    averaged = own["basis"] == "bspline" and scene.numerics.locking == "cell-average"
+    return step + ["numerics.locking=none"] * averaged
+
+
 def compare(scene: Scene, realizations: int, budget: float, directory: Path, say: Callable[[str], None]) -> Tradeoff:
     """Run the deterministic run and `realizations` realizations of a scene with each setting.
 
@@ -163,12 +180,14 @@ def compare(scene: Scene, realizations: int, budget: float, directory: Path, say
     speed = own.seconds / realization_seconds(scene)
     trials = [own]
     for setting in (f"numerics.cell={scene.numerics.cell / 2:g} m", *settings(scene)):
+        overrides = [setting, *needed(scene, setting)]
+        told = ", ".join(overrides)
         try:
-            variant = kept_scene(scene.text, [*scene.overrides, setting])
+            variant = kept_scene(scene.text, [*scene.overrides, *overrides])
         except RefusalError as refusal:
-            say(f"{setting}: left out, no valid scene. {refusal.__cause__}")
+            say(f"{told}: left out, no valid scene. {refusal.__cause__}")
             continue
-        trials.append(bench.tried(setting, variant, speed * realization_seconds(variant), say))
+        trials.append(bench.tried(told, variant, speed * realization_seconds(variant), say))
     return Tradeoff(scene, trials, min((t for t in trials if not t.failures), key=lambda trial: trial.cell))
 
 
@@ -213,5 +232,5 @@ class Bench:
         except Exception as error:
             return np.nan, f"crashed ({error!r})"
         if record.status not in UNHINDERED:
-            return np.nan, record.reason or record.status.name
+            return np.nan, without_debris(record.reason) or record.status.name
         return float(np.asarray(record.values[FINAL_RUNOUT[ground.scene.slide.front]])), ""

@@ -57,7 +57,7 @@ def test_where_nothing_is_near_nothing_is_recommended(made_up):
 
 def test_failures_and_what_was_left_out_are_marked(made_up):
     by_setting = {row[0]: row[1:] for row in rows(made_up)}
-    assert by_setting["numerics.courant=0.9"] == ("1.5", "", "", "1", "energy was created")
+    assert by_setting["numerics.courant=0.9"] == ("1.5", "", "", "1 of 2", "energy was created")
     assert by_setting["numerics.particles_per_cell=16"] == ("8", "", "", "", "left out")
     assert "energy was created" in table(made_up)
 
@@ -78,6 +78,22 @@ def test_the_settings_of_the_scene_itself_are_not_tried_twice():
     assert f"numerics.courant={scene.numerics.courant}" not in tried
     assert f"numerics.basis={scene.numerics.basis}" not in tried
     assert "soil.young_modulus=25 MPa" in tried
+
+
+@pytest.mark.parametrize(
+    ("setting", "needs"),
+    [
+        ("numerics.basis=linear", ["numerics.courant=0.2"]),
+        ("numerics.basis=bspline", ["numerics.locking=none"]),
+        ("numerics.stress_update=usl", ["numerics.courant=0.4"]),
+        ("numerics.stress_update=usf", []),
+        ("numerics.courant=0.9", []),
+    ],
+)
+def test_a_setting_is_tried_with_what_it_needs(setting, needs):
+    scene = load_scene("ma2023", ["numerics.cell=2 m"])
+    assert tradeoff.needed(scene, setting) == needs
+    load_scene(scene, [setting, *needs])
 
 
 def test_a_short_comparison_on_the_command_line(tmp_path, monkeypatch, capsys):
