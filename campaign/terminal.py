@@ -30,6 +30,12 @@ def rounded_up(number: float) -> str:
     return f"{ceil(number / unit - 1e-9) * unit:g}"
 
 
+def rounded_down(number: float) -> str:
+    """Write a number with two digits, not above it."""
+    unit = 10.0 ** (floor(log10(number)) - 1)
+    return f"{floor(number / unit + 1e-9) * unit:.6g}"
+
+
 def clock(seconds: float) -> str:
     """Return a length of time as hours, minutes and seconds, "0:02:05"."""
     return str(timedelta(seconds=int(seconds)))

@@ -15,6 +15,7 @@ from campaign.statistics.intervals import unknown
 from campaign.statistics.paired import Difference
 from campaign.statistics.receptors import REACHED
 from campaign.storage.formats import program_version
+from campaign.storage.manifest import now
 
 DIMENSIONS = {
     "distance": ("m", "distance from the initial toe"),
@@ -109,7 +110,7 @@ def _attributes(given: Comparison, doubts: Sequence[str]) -> dict[str, str | flo
         "Conventions": "CF-1.11",
         "title": f"Comparison of {', '.join(given.names)}",
         "source": f"runout-campaign {program_version()}",
-        "history": f"{datetime.now(UTC).isoformat(timespec='seconds')} compared by campaign compare",
+        "history": f"{now()} compared",
         "confidence": given.confidence,
         "front": given.front,
         "seeds": " ".join(str(each.scene.campaign.seed) for each in given.scenarios),

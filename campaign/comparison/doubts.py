@@ -5,13 +5,16 @@ from collections.abc import Iterator
 import numpy as np
 
 from campaign.comparison.scenarios import Comparison
-from campaign.record import FAILED, LOWER_BOUND
+from campaign.record import FAILED, Status
 from campaign.results.results import Results
 from campaign.simulation.field_size import field_size
 
 FIELD = "field."
 CRITERIA = ("slide.displaced", "slide.failed", "slide.front_area")
 """Keys that decide what is counted and not what happens."""
+
+STOPPED = {Status.reached_wall: "a wall of the model", Status.not_settled: "the end of the run"}
+"""What makes a run-out a lower bound."""
 
 
 def doubts(given: Comparison) -> list[str]:
@@ -60,7 +63,11 @@ def _of_pairs(given: Comparison, other: int) -> Iterator[str]:
             "changed as well."
         )
     if counted := [key for key in keys if key in CRITERIA]:
-        yield f"{', '.join(counted)} differ between {name} and {first}: what counts as a slide is not the same."
+        differ = "differs" if len(counted) == 1 else "differ"
+        yield (
+            f"{', '.join(counted)} {differ} between {name} and {first}: what counts as a slide, or as its front, is "
+            "not the same."
+        )
 
 
 def _other_field(here: Results, there: Results, keys: list[str]) -> str:
@@ -77,11 +84,12 @@ def _of_runouts(given: Comparison, scenario: int) -> Iterator[str]:
     results, name = given.scenarios[scenario], given.names[scenario]
     if results.data.attrs["solver_drift"] == "true":
         yield f"The realizations of {name} were computed by several versions of the solver."
-    if bounds := int(np.count_nonzero(results.has_status(LOWER_BOUND)[given.ids])):
-        yield (
-            f"In {name} a wall or the end of the run stopped {bounds} of the {len(given.ids)} realizations: there the "
-            "run-out is a lower bound, and the difference is biased."
-        )
+    for status, what in STOPPED.items():
+        if bounds := int(np.count_nonzero(results.has_status([status])[given.ids])):
+            yield (
+                f"In {name} {what} stopped {bounds} of the {len(given.ids)} realizations: there the run-out is a lower "
+                "bound, and the difference is biased."
+            )
 
 
 def _receptors(given: Comparison) -> Iterator[str]:

@@ -52,7 +52,7 @@ def _repeated(scene: Scene, changed: Input, slides: tuple[int, ...], tally: Tall
     run = SideRun(
         scene=lambda: without_rule(with_more(scene, changed), slides[-1] + 1),
         directory=directory_of(means.home, changed),
-        announcement=f"Inputs: {again} again with {100 * MORE:g} % more {changed.name}, {value}.",
+        announcement=f"Inputs: {again} computed again with {100 * MORE:g} % more {changed.name}, {value}.",
         loss=f"What more {changed.name} changes cannot be estimated.",
         known=[summary for k, summary in tally.summaries.items() if k not in slides],
     )

@@ -22,6 +22,10 @@ def nothing_ahead(_tally: Tally, _rate: float) -> float:
     return 0.0
 
 
+FEWEST = 5
+"""Realizations from which on a probability is told: that of four out of four is only known to be above 40 %."""
+
+
 class Progress:
     """Prints a line at every checkpoint and now and then between them.
 
@@ -68,7 +72,9 @@ def _estimates(tally: Tally) -> str:
     slides, usable = latest.outcomes.slides, latest.outcomes.usable
     if usable == 0:
         return ""
-    chance = f" | {slides} of {usable} slid, P(slide) {chance_of_slide(latest.slide_probability)}"
+    chance = f" | {slides} of {usable} slid"
+    if usable >= FEWEST:
+        chance += f", P(slide) {chance_of_slide(latest.slide_probability)}"
     if slides < 2:
         return chance
     return f"{chance} | run-out {_mean(latest.mean)}, std {_std(std_of(latest.variance))}"

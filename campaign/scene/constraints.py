@@ -10,6 +10,9 @@ from pydantic import AfterValidator, BeforeValidator, Field
 
 from campaign.scene.units import LENGTH, Angle, Area, Kind, Length, Pressure, Time, of_a_size, si_value
 
+LARGEST_COV = 10.0
+"""Beyond which a coefficient of variation is one in per cent."""
+
 LARGEST_COUNT = 10**9
 """Of realizations, more than anybody has time for."""
 
@@ -32,8 +35,15 @@ def one_of(names: Iterable[str]) -> AfterValidator:
     return must(f"be {', '.join(first)} or {last}", known.__contains__)
 
 
-def _goes_forward(points: tuple[tuple[float, float], ...]) -> bool:
-    return all(left <= right for (left, _), (right, _) in pairwise(points))
+def _goes_forward(points: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:
+    """Refuse points of which one lies to the left of the one before, and name it."""
+    for number, ((left, _), (right, _)) in enumerate(pairwise(points), start=2):
+        if right < left:
+            raise ValueError(
+                f"it must go from left to right, and point {number}, x = {right:g} m, lies to the left of the one "
+                f"before, x = {left:g} m"
+            )
+    return points
 
 
 def _descends(points: tuple[tuple[float, float], ...]) -> bool:
@@ -77,8 +87,12 @@ PositiveCount = Annotated[int, must("be 1 or more", lambda count: count >= 1), N
 Count = Annotated[int, NOT_NEGATIVE, NOT_ENDLESS]
 Seed = Annotated[int, NOT_NEGATIVE, must("be below 2^63", lambda seed: seed < 2**63)]
 Line = Annotated[str, must("be a line of text without control characters", str.isprintable)]
+A_SHARE = must(
+    "be the standard deviation over the mean, at most 10; 30 % is written 0.3", lambda cov: cov <= LARGEST_COV
+)
+Cov = Annotated[PositiveNumber, A_SHARE]
 # None is left out of a scene's identity, so that 0 is the same scene as no key at all.
-OptionalCov = Annotated[float, NOT_NEGATIVE, OF_A_SIZE, AfterValidator(lambda cov: cov or None)] | None
+OptionalCov = Annotated[float, NOT_NEGATIVE, OF_A_SIZE, A_SHARE, AfterValidator(lambda cov: cov or None)] | None
 Fraction = Annotated[float, must("lie between 0 and 1", lambda value: 0.0 <= value <= 1.0)]
 OpenFraction = Annotated[
     float, must("lie between 0 and 1, both excluded; 95 % is written 0.95", lambda value: 0.0 < value < 1.0)
@@ -94,7 +108,7 @@ Profile = Annotated[
     Field(strict=False),
     must("have two points or more", lambda points: len(points) >= 2),
     must("start at x = 0", lambda points: points[0][0] == 0.0),
-    must("go from left to right; no x may be less than the one before", _goes_forward),
+    AfterValidator(_goes_forward),
     must("stay above the base, which is at elevation 0", lambda points: min(y for _, y in points) >= 0.0),
     must("have a width; its last x must be greater than 0", lambda points: points[-1][0] > 0.0),
     must("descend to the right somewhere, because slides go there; mirror it", _descends),

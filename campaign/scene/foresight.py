@@ -11,7 +11,7 @@ from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
 from campaign.scene.softening import is_brittle
 from campaign.scene.toe import misplaced_toe
-from campaign.terminal import duration, rounded_up
+from campaign.terminal import duration, rounded_down, rounded_up
 from solver.surface import Surface
 
 ABSURD_FACTOR = 5.0
@@ -154,8 +154,8 @@ def coarse_cells(scene: Scene, look: FirstLook) -> Complaint | None:
     depth = look.peak.depth(look.surface)
     return Complaint(
         "numerics.cell",
-        f"the critical slip circle is {depth:.2g} m deep, and a body of less than {THINNEST_SLIDE:g} cells slides "
-        f'badly; use "{depth / THINNEST_SLIDE:.2g} m" or less',
+        f"the critical slip circle is {depth:.3g} m deep, and a body of less than {THINNEST_SLIDE:g} cells slides "
+        f'badly; use "{rounded_down(depth / THINNEST_SLIDE)} m" or less',
     )
 
 
@@ -163,7 +163,7 @@ def short_interval(scene: Scene) -> Complaint | None:
     """Warn of output times that shorten the time step."""
     interval, step = scene.numerics.output_interval, time_step(scene)
     longest = ceil(scene.numerics.end_time / step)
-    if step_count(scene) <= 1.5 * longest:
+    if step_count(scene) <= 1.5 * longest or 10.0 * step > scene.numerics.end_time:
         return None
     return Complaint(
         "numerics.output_interval",

@@ -12,6 +12,7 @@ from campaign.scene.constraints import (
     POSITIVE,
     AcuteAngle,
     Count,
+    Cov,
     Fraction,
     Line,
     Name,
@@ -66,7 +67,7 @@ class Cohesion(Section):
     """
 
     mean: PositivePressure
-    cov: PositiveNumber
+    cov: Cov
     residual: Annotated[Pressure, NOT_NEGATIVE]
     residual_cov: OptionalCov = None
 
@@ -75,7 +76,7 @@ class FrictionAngle(Section):
     """Lognormal peak friction angle, and the residual one, lognormal or the same everywhere; in rad."""
 
     mean: AcuteAngle
-    cov: PositiveNumber
+    cov: Cov
     residual: Annotated[Angle, NOT_NEGATIVE]
     residual_cov: OptionalCov = None
 

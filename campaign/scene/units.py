@@ -31,6 +31,16 @@ DENSITY = Kind("a density", "kg/m^3", "2000 kg/m^3")
 NUMBER = Kind("a number without unit", "", "0.1")
 KINDS = (LENGTH, AREA, PRESSURE, UNIT_WEIGHT, ANGLE, TIME, DENSITY, NUMBER)
 
+OTHERS = {
+    "[mass] * [length] / [time] ** 2": "a force",
+    "[mass] / [time] ** 2": "a force per length",
+    "[mass]": "a mass",
+    "[length] ** 3": "a volume",
+    "[length] / [time]": "a speed",
+    "[length] / [time] ** 2": "an acceleration",
+}
+"""What else people write, by pint's dimension."""
+
 QUANTITY = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(\S.*?)?\s*", re.DOTALL)
 
 NAME, POWER = r"(?:[A-Za-zµμ]+|°|%)", r"(?:(?:\^|\*\*)?(-?[1-9]))?"
@@ -126,7 +136,7 @@ def _root(unit: "pint.Unit") -> Any:
 
 def _name(unit: "pint.Unit") -> str:
     same = [kind.name for kind in KINDS if _root(unit) == _root(_registry().Unit(kind.si_unit))]
-    return same[0] if same else f"of dimension {unit.dimensionality}"
+    return next(iter(same), None) or OTHERS.get(f"{unit.dimensionality}") or f"of dimension {unit.dimensionality}"
 
 
 Length = Annotated[float, BeforeValidator(partial(si_value, kind=LENGTH))]

@@ -17,6 +17,10 @@ def test_the_probability_of_a_slide_comes_before_the_run_out():
     assert line.startswith("12/200 done, 0 failed | 12 of 12 slid, P(slide) at least 74 % | run-out 10.12 +- 0.19 m")
 
 
+def test_a_few_realizations_have_no_probability():
+    assert "1 of 1 slid |" in f"{state_line(filled([BASELINE, 0]))} |"
+
+
 def test_without_a_slide_there_is_a_probability_all_the_same():
     tally = filled([BASELINE])
     for k in range(11):

@@ -79,3 +79,14 @@ def test_what_counts_as_a_slide_must_suit_the_height() -> None:
     column = [["0 m", "0.1 m"], ["0.2 m", "0.1 m"], ["0.2 m", "0 m"], ["0.8 m", "0 m"]]
     (message,) = found_in(read_document("bui2008").tables | {"slide": {}, "geometry": {"surface": column}})
     assert message.startswith("slide.failed (scene.toml) is not given, but a slope of 0.1 m can fail")
+
+
+def test_a_height_is_that_above_the_toe_wherever_it_is_told() -> None:
+    """The plain falls by 2 m beyond a slope of 15 m."""
+    falling = 'geometry={surface=[["0 m","22 m"],["20 m","22 m"],["35 m","7 m"],["75 m","5 m"]]}'
+    assert "a slope of 15 m must be at least 4 cells high" in complaint(falling, "numerics.cell=4 m")
+
+
+@pytest.mark.parametrize("key", ["soil.cohesion.cov", "soil.friction_angle.residual_cov"])
+def test_a_coefficient_of_variation_in_per_cent_is_refused(key: str) -> None:
+    assert "at most 10; 30 % is written 0.3" in complaint(f"{key}=30.0")

@@ -56,6 +56,7 @@ def test_a_value_in_si_is_kept_to_the_last_bit(value: float) -> None:
         ("20 m", PRESSURE, "that is a length, and a pressure is needed"),
         ("2000 kg/m^3", UNIT_WEIGHT, "that is a density, and a unit weight is needed"),
         ("10 %", ANGLE, "that is a number without unit, and an angle is needed"),
+        ("3 kN", LENGTH, "that is a force, and a length is needed"),
         ("3 m*deg", LENGTH, "that is of dimension"),
         ("1 degC", LENGTH, "that is of dimension"),
         ("1e301 m", LENGTH, "nothing is of that size; give 0, or from 1e-15 m to 1e\\+15 m"),
