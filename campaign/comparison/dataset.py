@@ -15,7 +15,6 @@ from campaign.statistics.intervals import unknown
 from campaign.statistics.paired import Difference
 from campaign.statistics.receptors import REACHED
 from campaign.storage.formats import program_version
-from campaign.storage.manifest import now
 
 DIMENSIONS = {
     "distance": ("m", "distance from the initial toe"),
@@ -110,7 +109,7 @@ def _attributes(given: Comparison, doubts: Sequence[str]) -> dict[str, str | flo
         "Conventions": "CF-1.11",
         "title": f"Comparison of {', '.join(given.names)}",
         "source": f"runout-campaign {program_version()}",
-        "history": f"{now()} compared",
+        "history": f"{datetime.now(UTC).isoformat(timespec='seconds')} compared by campaign compare",
         "confidence": given.confidence,
         "front": given.front,
         "seeds": " ".join(str(each.scene.campaign.seed) for each in given.scenarios),

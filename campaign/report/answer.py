@@ -117,8 +117,8 @@ def _cut_short(results: Results) -> str:
     hindered, slides = results.outcomes.hindered, counted(results.outcomes.slides, "slide")
     unsettled = results.by_status()[Status.not_settled]
     causes = {
-        f"{walls_in_words(results)} stopped {hindered} of {slides}": (hindered, "Lengthen the ground there."),
-        f"{unsettled} of {slides} still moved when the run ended": (unsettled, "Raise numerics.end_time."),
+        f"{walls_in_words(results)} stopped {hindered:,} of {slides}": (hindered, "Lengthen the ground there."),
+        f"{unsettled:,} of {slides} still moved when the run ended": (unsettled, "Raise numerics.end_time."),
     }
     told = {cause: remedy for cause, (count, remedy) in causes.items() if count}
     return f"This is a lower bound: {' and '.join(told)}. {' '.join(told.values())}" if told else ""

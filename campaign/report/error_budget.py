@@ -83,8 +83,8 @@ def _cut_short(results: Results) -> list[Row]:
     slides, unsettled = results.outcomes.slides, results.by_status()[Status.not_settled]
     hindered, told = results.outcomes.hindered, counted(slides, "slide")
     causes = {
-        "Walls": (hindered, f"a wall stopped {hindered} of {told}"),
-        "End of the run": (unsettled, f"{unsettled} of {told} still moved"),
+        "Walls": (hindered, f"a wall stopped {hindered:,} of {told}"),
+        "End of the run": (unsettled, f"{unsettled:,} of {told} still moved"),
     }
     return [
         Row(source, "mean run-out of a slide", "at least", why, str(slides)) for source, (n, why) in causes.items() if n

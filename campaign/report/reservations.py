@@ -26,7 +26,7 @@ def _failed(results: Results) -> str:
         return ""
     why = f" (the most frequent reason: {why_failed(results).rstrip('.')})" if why_failed(results) else ""
     return (
-        f"{failed} of {counted(results.realizations, 'realization')} failed{why}. What is told of the "
+        f"{failed:,} of {counted(results.realizations, 'realization')} failed{why}. What is told of the "
         "others need not hold for those."
     )
 
@@ -35,10 +35,8 @@ def _hindered(results: Results) -> str:
     hindered, slides = results.outcomes.hindered, results.outcomes.slides
     if not hindered:
         return ""
-    wall = walls_in_words(results)
-    return (
-        f"{wall[0].upper()}{wall[1:]} stopped {hindered} of {counted(slides, 'slide')}, which would have come farther."
-    )
+    wall, stopped = walls_in_words(results), f"{hindered:,} of {counted(slides, 'slide')}"
+    return f"{wall[0].upper()}{wall[1:]} stopped {stopped}, which would have come farther."
 
 
 def _ahead(results: Results) -> str:
@@ -59,10 +57,9 @@ def _moving(results: Results) -> str:
     unsettled, n = results.by_status()[Status.not_settled], results.outcomes.slides
     if not unsettled:
         return ""
-    return (
-        f"{unsettled} of {counted(n, 'run-out')} {'is a lower bound' if unsettled == 1 else 'are lower bounds'}: still "
-        f"moving when the run ended (numerics.end_time). {_last_advance(results)}"
-    )
+    bounds = "is a lower bound" if unsettled == 1 else "are lower bounds"
+    told = f"{unsettled:,} of {counted(n, 'run-out')} {bounds}: still moving when the run ended (numerics.end_time)."
+    return f"{told} {_last_advance(results)}"
 
 
 def _last_advance(results: Results) -> str:

@@ -26,9 +26,6 @@ from campaign.storage.columns import Columns
 CHUNK = 64
 """Realizations in a chunk; the library's own choice for an unlimited dimension is 1, thirty times slower to read."""
 
-BOUNDS = "_bounds"
-"""How the name of a variable ends that bounds another."""
-
 
 def build(
     ground: PreparedGround,
@@ -104,12 +101,10 @@ def _given(ground: PreparedGround, rows: Mapping[str, Quantity]) -> Variables:
     for name, row in rows.items():
         if name not in given:
             continue
-        bounds = f"{name}{BOUNDS}"
+        bounds = f"{name}_bounds"
         variables[name] = variable(row.dims, given[name], row.units, row.long_name, row.dtype)
         if row.dtype == TEXT:
             del variables[name].attrs["units"]
-        if name.endswith(BOUNDS):  # CF gives bounds the attributes of what they bound
-            variables[name].attrs = {}
         if bounds in given:
             variables[name].attrs["bounds"] = bounds
         if name.endswith("_bounds"):  # whose meaning is that of their place, and none is missing
@@ -159,10 +154,14 @@ def _deterministic(baseline: Record, ground: PreparedGround) -> Variables:
 
 
 def _encoding(dataset: xr.Dataset) -> dict[str, dict[str, Any]]:
-    whole = [name for name in map(str, dataset.variables) if name in dataset.coords or name.endswith(BOUNDS)]
-    encoding: dict[str, dict[str, Any]] = {name: {"_FillValue": None} for name in whole}
+    encoding: dict[str, dict[str, Any]] = {name: {"_FillValue": None} for name in map(str, dataset.coords)}
     for name, stored in dataset.data_vars.items():
         if stored.dims and stored.dtype.kind in "fiu":
             chunks = [min(CHUNK, size) if dim == "realization" else size for dim, size in stored.sizes.items()]
-            encoding.setdefault(str(name), {}).update(zlib=True, complevel=4, shuffle=True, chunksizes=chunks)
+            encoding[str(name)] = {
+                "zlib": True,
+                "complevel": 4,
+                "shuffle": True,
+                "chunksizes": chunks,
+            } | stored.encoding
     return encoding

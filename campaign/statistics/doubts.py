@@ -80,7 +80,7 @@ def detached_fronts(volumes: Sample, mass_runouts: Sample, front_area: float, fr
         ]
     if beyond:
         return [
-            f"In {beyond} of {counted(len(volumes), 'slide')} more ground than slide.front_area has come apart: the "
+            f"In {beyond:,} of {counted(len(volumes), 'slide')} more ground than slide.front_area has come apart: the "
             f"run-out is that of this debris. Use {_larger(volumes)}."
         ]
     return []

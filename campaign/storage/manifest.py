@@ -46,7 +46,7 @@ def begin(directory: Path, scene: Scene, ranks: int, allow_drift: bool) -> list[
 
 def end(directory: Path, exit_code: int, verdict: str) -> None:
     """Write down how the campaign ended; without this it was killed."""
-    ended = {"at": now(), "exit_code": exit_code, "verdict": verdict}
+    ended = {"at": _now(), "exit_code": exit_code, "verdict": verdict}
     _write(directory, read(directory) | {"end": ended})
 
 
@@ -67,11 +67,10 @@ def _about(scene: Scene) -> Manifest:
 
 def _start(ranks: int) -> Manifest:
     sources = source_hashes() | {"git": git_describe()}
-    return {"at": now(), "ranks": ranks, "versions": library_versions()} | machine() | sources
+    return {"at": _now(), "ranks": ranks, "versions": library_versions()} | machine() | sources
 
 
-def now() -> str:
-    """Return the time in UTC, to seconds, after ISO 8601."""
+def _now() -> str:
     return datetime.now(UTC).isoformat(timespec="seconds")
 
 
