@@ -1,5 +1,6 @@
 """The answer of a campaign in words, for the terminal and the report."""
 
+import math
 import re
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -30,6 +31,10 @@ OUTCOMES = {
 
 VARYING = re.compile(r"[\d.]+(?= s\b| ?%)")
 """Numbers of a reason that are those of one realization."""
+
+
+RARER = 0.01
+"""A probability of a slide that one may want to be bounded by, where slides are known to be rare."""
 
 
 class Outcome(NamedTuple):
@@ -81,11 +86,20 @@ def _chance(results: Results) -> str:
     within, confidence = chance_of_slide(probability), f"{100 * results.confidence:g} % confidence"
     if given.slides == 0:
         stable = "It does not slide: " if probability.upper <= RARE else ""
-        more = "" if stable else " It takes more of them to call the slope stable."
+        more = f" {_bounded_by_less(results)}" if stable else " It takes more of them to call the slope stable."
         return f"{stable}{seen} slid, so the probability of a slide is {within} ({confidence}).{more}"
     if given.slides < given.usable:
         within = f"{chance(probability.estimate)}, {within}"
     return f"{seen} slid: the probability of a slide is {within} ({confidence})."
+
+
+def _bounded_by_less(results: Results) -> str:
+    """Say how to ask for more than that slides are rare."""
+    number = math.ceil(math.log((1.0 - results.confidence) / 2.0) / math.log(1.0 - RARER))
+    return (
+        f"About {number:,} realizations without a slide bound it by {100 * RARER:g} %: ask for "
+        f"campaign.slide_probability_tolerance = {RARER / 2:g}, which is half of that."
+    )
 
 
 def _runout(results: Results) -> str:

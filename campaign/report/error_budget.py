@@ -37,7 +37,7 @@ def error_budget(results: Results) -> list[Row]:
         *_cut_short(results),
         *_failures(results),
         *_unknown_to_the_mesh(results),
-        _discretisation(results),
+        *_discretisation(results),
         _release(results),
         _energy(results),
     ]
@@ -113,22 +113,24 @@ def _unknown_to_the_mesh(results: Results) -> list[Row]:
     """Return that nobody has measured what the mesh does to the probability of a slide, where it is in doubt."""
     slides = results.outcomes.slides
     remedy = "repeat the campaign with half the cell and compare"
-    is_open = 0 < slides < results.outcomes.usable
-    return [Row("Discretisation", "probability of a slide", NOT_ESTIMATED, remedy, "")] if is_open else []
+    is_open = slides < results.outcomes.usable
+    return [Row("Discretisation", "probability of a slide, by the mesh", NOT_ESTIMATED, remedy, "")] if is_open else []
 
 
-def _discretisation(results: Results) -> Row:
+def _discretisation(results: Results) -> list[Row]:
+    if not results.outcomes.slides and results.outcomes.usable:
+        return []
     found = results.discretisation
     if found is None:
         remedy = "give campaign.discretisation_pairs, or repeat the campaign with half the cell and compare"
         if results.scene.campaign.discretisation_pairs:
             remedy = "the campaign ended before its pairs with half the cell"
-        return Row("Discretisation", "mean run-out of a slide", NOT_ESTIMATED, remedy, "")
+        return [Row("Discretisation", "mean run-out of a slide", NOT_ESTIMATED, remedy, "")]
     change, name = found.interval, f"mean run-out of a slide, changed by cells of {found.cell / 2:g} m"
     if change.n == 0:
-        return Row("Discretisation", name, NOT_ESTIMATED, "in no pair both slid", "0")
+        return [Row("Discretisation", name, NOT_ESTIMATED, "in no pair both slid", "0")]
     bounds = f"{change.lower:+.2f} to {change.upper:+.2f} m" if change.is_known else "not enough pairs"
-    return Row("Discretisation", name, f"{change.estimate:+.2f} m", bounds, str(change.n))
+    return [Row("Discretisation", name, f"{change.estimate:+.2f} m", bounds, str(change.n))]
 
 
 def _release(results: Results) -> Row:

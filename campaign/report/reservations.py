@@ -11,6 +11,9 @@ from campaign.statistics.doubts import detached_fronts, doubts
 from campaign.statistics.wording import chance
 from campaign.terminal import counted
 
+MANY = 0.1
+"""Share of the slides from which on walls decide the answer; fewer only make the mean a lower bound."""
+
 
 def reasons_for_doubt(results: Results) -> list[str]:
     """Return sentences on why the run-outs or their intervals may not hold."""
@@ -33,7 +36,7 @@ def _failed(results: Results) -> str:
 
 def _hindered(results: Results) -> str:
     hindered, slides = results.outcomes.hindered, results.outcomes.slides
-    if not hindered:
+    if hindered <= MANY * slides:
         return ""
     wall, stopped = walls_in_words(results), f"{hindered:,} of {counted(slides, 'slide')}"
     return f"{wall[0].upper()}{wall[1:]} stopped {stopped}, which would have come farther."

@@ -18,6 +18,9 @@ LETTER: Final = 0.078
 LINE: Final = 0.19
 """Height of a line in inches."""
 
+UNDER_TEXT: Final = {"facecolor": "white", "edgecolor": "none", "pad": 0.4, "alpha": 0.85}
+"""What keeps a label readable where the line of another one crosses it."""
+
 
 class Label(NamedTuple):
     """What is written about a place: `x`, `y` in m is where its line begins."""
@@ -57,7 +60,8 @@ def write_labels(axes: Axes, placed: Sequence[Placed], scale: float) -> None:
     for label, _, _, bottom, alignment in placed:
         line = axes.vlines(label.x, label.y, bottom, color=label.colour, linewidth=1.0)
         x = label.x + (0.04 / scale if alignment == "left" else -0.04 / scale)
-        text = axes.text(x, bottom, label.text, color=label.colour, ha=alignment, va="bottom", fontsize=9)
+        text = axes.text(x, bottom, label.text, color=label.colour, ha=alignment, va="bottom", fontsize=9, zorder=5)
+        text.set_bbox(UNDER_TEXT)
         axes.plot(label.x, label.y, "o", color=label.colour, markersize=3.5)
         on_hover(line, label.hover)
         on_hover(text, label.hover)

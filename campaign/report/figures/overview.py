@@ -16,6 +16,7 @@ from campaign.report.figures.marks import draw_total_intervals, marks
 from campaign.report.figures.section import Section
 from campaign.report.figures.style import BLACK, BLUE, Illustration
 from campaign.results.results import Results
+from campaign.scene.first_look import look_at
 from campaign.statistics.intervals import Sample
 from campaign.statistics.total import has_mesh_error
 from campaign.terminal import counted
@@ -46,6 +47,8 @@ def overview(results: Results, curve: Curve, section: Section, width: float) -> 
     section.frame(panels.section)
     panels.section.set_xlabel("distance (m)")
     draw_total_intervals(panels.section, results, section)
+    if not results.outcomes.slides:
+        _circle(panels.section, results)
     write_labels(panels.section, placed, scale)
     if panels.strip is not None:
         _reach(panels.strip, results, curve, section)
@@ -53,6 +56,15 @@ def overview(results: Results, curve: Curve, section: Section, width: float) -> 
     columns = len(names) if width >= WIDE else 2
     panels.figure.legend(handles, names, loc="upper right", ncols=columns, borderaxespad=0.1, columnspacing=1.0)
     return Illustration(panels.figure, _caption(results), _alt(results, section))
+
+
+def _circle(axes: Axes, results: Results) -> None:
+    """Draw where a slope that has not slid comes nearest to it."""
+    circle = look_at(results.scene).peak
+    if circle is not None:
+        x = np.linspace(circle.entry, circle.exit, 200)
+        label = f"critical circle with the mean strength, factor of safety {circle.factor:.2f} (Bishop)"
+        axes.plot(x, circle.elevation(x), color=BLUE, linestyle=(0, (5, 3)), linewidth=1.2, label=label)
 
 
 def _panels(section: Section, width: float, has_slides: bool) -> Panels:
@@ -88,7 +100,7 @@ def _ticks(axes: Axes, places: Sample) -> None:
 def _caption(results: Results) -> str:
     slides = results.outcomes.slides
     if not slides:
-        return "The slope, which did not slide in any realization, with its toe and the places asked about."
+        return "The slope, which did not slide in any realization, with its critical circle and the places asked about."
     return (
         f"Upper part: the probability, with its {100 * results.confidence:g} % interval by sampling, that a slide gets "
         f"as far from the toe; every tick is where one of {counted(slides, 'slide')} stopped. Lower part: the ground "

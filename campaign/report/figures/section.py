@@ -84,11 +84,15 @@ class Section:
 
 
 def section_of(scene: Scene, runouts: Sequence[float] | Array) -> Section:
-    """Return the section of a scene, wide enough for these run-outs (m) and for the places asked about."""
+    """Return the section of a scene, wide enough for these run-outs (m) and for the places asked about.
+
+    Without a slide the whole ground is shown.
+    """
     surface = surface_of(scene.geometry)
     known = np.asarray(runouts)[np.isfinite(runouts)]
-    reach = surface.toe[0] + float(np.max(known, initial=0.0))
+    runout = float(np.max(known, initial=0.0))
+    reach = surface.toe[0] + runout
     farthest = max([reach, *(receptor.x[1] for receptor in scene.receptor)])
     side = particle_spacing(scene.numerics.cell, scene.numerics.particles_per_cell)
-    right = min(surface.width, (1 + MARGIN) * farthest + 2 * side)
+    right = min(surface.width, (1 + MARGIN) * farthest + 2 * side) if runout > 0.0 else surface.width
     return Section(surface, float(side), right, SKY * surface.top, scene.receptor)

@@ -231,6 +231,10 @@ def test_a_slope_that_does_not_slide_is_an_answer(tmp_path, ground):
     page = made_up_page(tmp_path, ground, [0.0] * 60, [Status.no_slide] * 60, Status.no_slide, ["campaign.block=20"])
     assert "It does not slide: 0 of 40 realizations slid, so the probability of a slide is at most 8.8 %" in page.text
     assert "With mean strengths everywhere it does not slide either." in page.text
+    assert "About 368 realizations without a slide bound it by 1 %" in page.text
+    assert "critical circle with the mean strength, factor of safety 0.73" in page.text
+    budget = error_budget(read_results(tmp_path))
+    assert [row.quantity for row in budget if row.source == "Discretisation"] == ["probability of a slide, by the mesh"]
     assert "sampling converged at 40 realizations: none slid" in page.text
     assert not re.search(r"\bnan\b", page.text + summary(read_results(tmp_path)))
     assert "No answer" not in page.text
