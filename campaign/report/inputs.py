@@ -95,9 +95,10 @@ def _largest(results: Results) -> str:
     known = {} if found is None else found.known()
     if found is None or not known:
         return ""
-    slides = next(iter(known.values())).n
+    slides, whole = len(found.realizations), min(effect.n for effect in known.values())
     of_all = f"Of {counted(len(known), 'input')}, each raised alone by {100 * MORE:g} %,"
-    again = f"{counted(slides, 'slide')} {'was' if slides == 1 else 'were'} computed again for each."
+    unhindered = f", {whole} or more without a wall or a failure in the way" if whole < slides else ""
+    again = f"{counted(slides, 'slide')} {'was' if slides == 1 else 'were'} computed again for each{unhindered}."
     if not found.clear():
         return (
             f"{of_all} none has an effect on the run-out of a slide that can be told from none: {again} A larger "

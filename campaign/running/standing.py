@@ -48,6 +48,8 @@ def watch(directory: Path) -> None:
 
 def _state(directory: Path, about: dict[str, Any]) -> str:
     if DirectoryLock(directory).is_held():
+        if about["end"] is not None:  # of the start before, which is over
+            return "starting"
         start = about["starts"][-1]
         return f"running on {counted(start['ranks'], 'rank')} since {start['at']}"
     if about["end"] is None:
