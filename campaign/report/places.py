@@ -17,6 +17,7 @@ from campaign.statistics.receptors import (
     receptor_estimates,
 )
 from campaign.statistics.wording import chance, chances
+from campaign.terminal import counted
 
 MOVEMENT = {
     "sliding_volume": "ground that slides, per metre of width",
@@ -30,6 +31,9 @@ STILL_MOVING = 1e99
 """Time in s that stands for a rest after the end of the run, so that quantiles know of it."""
 
 ARRIVAL = "arrival after the release"
+
+PUSHED = ("receptor_max_depth", "receptor_max_velocity", "receptor_deposit")
+"""What is told of ground that is pushed ahead of the front."""
 
 
 class Distribution(NamedTuple):
@@ -55,13 +59,14 @@ class Reach(NamedTuple):
 
 
 class Place(NamedTuple):
-    """A receptor: where it is, how probable it is that something comes, and what comes."""
+    """A receptor: where it is, how probable it is that something comes, and what comes, with and without a front."""
 
     name: str
     where: str
     chances: list[tuple[str, str, str]]
     slides: int
     effects: list[Distribution]
+    pushed: str
 
 
 def movement(results: Results) -> list[Distribution]:
@@ -129,7 +134,21 @@ def _place(results: Results, receptor: Receptor, reach: list[ReceptorEstimate]) 
     reached = results.data.sel(receptor=name)["front_reaches"].values == 1.0
     where = f"x = {near:g} m" if near == far else f"x = {near:g} to {far:g} m"
     effects = list(_effects(results, name, reached)) if reached.any() else []
-    return Place(name, where, probabilities, int(np.count_nonzero(reached)), effects)
+    return Place(name, where, probabilities, int(np.count_nonzero(reached)), effects, _pushed(results, name))
+
+
+def _pushed(results: Results, receptor: str) -> str:
+    """Say what comes in slides whose front does not get there, "" if nothing does."""
+    data = results.data.sel(receptor=receptor)
+    without_front = (data["moved_ground_reaches"].values == 1.0) & (data["front_reaches"].values == 0.0)
+    if not without_front.any():
+        return ""
+    depth, velocity, rise = (float(np.median(data[each].values[without_front])) for each in PUSHED)
+    return (
+        f"In {counted(int(np.count_nonzero(without_front)), 'slide')} ground gets here that is pushed or thrown ahead "
+        f"of the front, and not the front: in half of them {number(depth, 'm')} deep or more and "
+        f"{number(velocity, 'm/s')} fast, with a final rise of {number(rise, 'm')} or more."
+    )
 
 
 def _effects(results: Results, receptor: str, reached: np.ndarray) -> Iterator[Distribution]:

@@ -32,4 +32,4 @@ def _key(scene: Scene) -> str:
 def _rise(look: FirstLook, circle: SlipCircle) -> float:
     """Return how high a circle comes out above the toe, in heights of the circle."""
     upper, lower = circle.elevation_of_ends(look.surface)
-    return (lower - look.surface.toe[1]) / (upper - lower)
+    return (lower - look.surface.toe[1]) / max(upper - lower, 1e-9)
