@@ -79,9 +79,9 @@ def _roomiest(place: NDArray[np.float64], taken: NDArray[np.float64]) -> tuple[f
 
 
 def _name(trial: Trial, tradeoff: Tradeoff) -> str:
-    """Return a setting without its section, and what it is to the comparison: "cell = 2 m"."""
-    key, equals, value = trial.setting.partition("=")
-    name = f"{key.partition('.')[2]} = {value}".replace("_", " ") if equals else trial.setting
+    """Return a setting without its sections, and what it is to the comparison: "cell = 2 m"."""
+    parts = [part.partition(".")[2].replace("=", " = ").replace("_", " ") for part in trial.setting.split(", ")]
+    name = ", ".join(parts) if "=" in trial.setting else trial.setting
     if trial is tradeoff.reference:
         return f"{name} (reference)"
     return f"{name} (recommended)" if trial is tradeoff.recommended else name

@@ -99,7 +99,7 @@ def _row(trial: Trial, found: Tradeoff) -> tuple[str, ...]:
     marks = [
         "reference" if trial is reference else "",
         "recommended" if trial is found.recommended else "",
-        "nearest at its cost" if trial in found.front else "",
+        "nothing cheaper is as near" if trial in found.front else "",
         trial.reason,
     ]
     known = "" if trial.failures else f"{trial.rms(reference):.3f}"

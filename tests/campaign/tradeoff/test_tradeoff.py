@@ -13,7 +13,7 @@ from campaign.report.figures.style import in_style
 from campaign.scene import load_scene
 from campaign.simulation.ground import Ground, prepare
 from campaign.tradeoff import trials as tradeoff
-from campaign.tradeoff.chart import chart
+from campaign.tradeoff.chart import _name, chart
 from campaign.tradeoff.table import rows, table
 from campaign.tradeoff.trials import OWN, Tradeoff, Trial, settings
 
@@ -69,6 +69,13 @@ def test_the_chart_shows_every_setting_that_was_run_and_crosses_the_failed(made_
     listed = axes.texts[-1].get_text()
     assert len(listed.splitlines()) == 5
     assert "as the scene says (recommended)" in listed
+
+
+def test_the_chart_names_a_setting_and_what_it_needs(made_up):
+    both = trial("numerics.basis=linear, numerics.courant=0.2", 1.0, [10.0, 10.0])
+    assert _name(both, made_up) == "basis = linear, courant = 0.2"
+    assert _name(made_up.trials[0], made_up) == f"{OWN} (recommended)"
+    assert _name(trial("soil.young_modulus=2.5 MPa", 1.0, [9.0, 9.0]), made_up) == "young modulus = 2.5 MPa"
 
 
 def test_the_settings_of_the_scene_itself_are_not_tried_twice():
