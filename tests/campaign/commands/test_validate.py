@@ -21,7 +21,7 @@ def test_a_scene_is_looked_at(capsys):
     assert code == 0
     flat = " ".join(printed.out.split())
     for part in (
-        "toe At x = 35 m, elevation 4 m: the foot of the slope, of all its faces.",
+        "toe At x = 35 m, elevation 4 m: the foot of the slope.",
         "factor of safety 0.73 with the mean peak strength on a circle from x = 14.1 m to 35 m",
         "0.37 with the residual strength",
         "Nearly every realization slides.",
@@ -37,7 +37,7 @@ def test_a_scene_is_looked_at(capsys):
 def test_a_profile_is_told_where_its_toe_was_found(capsys):
     surface = 'geometry.surface=[["0 m","19 m"],["20 m","19 m"],["35 m","4 m"],["75 m","4 m"]]'
     _, printed = answer(capsys, "ma2023", "--set", "geometry={}", "--set", surface)
-    assert "x = 35 m, elevation 4 m: the foot of the slope" in " ".join(printed.out.split())
+    assert "x = 35 m, elevation 4 m: the foot of the slope, of all its faces" in " ".join(printed.out.split())
     _, printed = answer(capsys, "ma2023", "--set", "geometry={}", "--set", surface, "--set", "geometry.toe=30 m")
     assert "x = 30 m, elevation 9 m: as given." in " ".join(printed.out.split())
 
@@ -51,6 +51,10 @@ def test_a_warning_shows_the_value_in_the_users_unit(capsys):
 RECEPTORS = 'receptor=[{name="road", x="40 m"}, {name="house", x="60 m"}, {name="barn", x="55 m"}]'
 
 
+SMALL_FRONT = 'Warning: slide.front_area (ma2023.toml, line 79) is "0.25 m^2", but the front then leaves'
+"""What is said of ma2023 in cells of 2 m, whatever else is changed."""
+
+
 def tried(capsys, *overrides):
     options = [f"--set={override}" for override in ("numerics.cell=2 m", *overrides)]
     assert cli.main(["validate", "ma2023", *options]) == 0
@@ -61,13 +65,13 @@ def test_the_slide_with_mean_strengths_says_whom_it_reaches(capsys):
     printed = tried(capsys, RECEPTORS)
     assert "comes to rest after 8.1 s; its front is 10.8 m beyond the toe, at x = 45.84 m." in printed
     assert "It reaches road (x = 40 m), not house (x = 60 m) and barn (x = 55 m). Simulated in cells of 2 m." in printed
-    assert "Warning" not in printed
+    assert printed.count("Warning") == printed.count(SMALL_FRONT) == 1
 
 
 def test_what_a_slide_has_shown_is_not_guessed(capsys):
     """By experience a plain of 18 m is too short for a slope of 15 m; this slide has come 11 m far."""
     short = ["geometry.slope.plain=18 m"]
-    assert "Warning" not in tried(capsys, *short)
+    assert tried(capsys, *short).count("Warning") == 1
     printed = answer(capsys, "ma2023", f"--set={short[0]}")[1].out
     assert "Warning: --set geometry.slope.plain" in printed
 
