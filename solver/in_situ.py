@@ -10,11 +10,14 @@ from solver.method import Method
 from solver.model import Model
 from solver.particles import Particles
 from solver.scheme import scheme_of
+from solver.slide import PAPER
+from solver.softening import NO_SOFTENING
 from solver.sorting import fill_tiles, read_tiles
 from solver.step import allocate_workspace, take_steps
 from solver.timestep import stable_step
 
 LOCAL_DAMPING = 0.7  # share of the unbalanced force (Cundall); gone after release
+MOST_COURANT = 0.5
 UNBALANCED = 1e-4  # of the weight: at rest
 STEPS_BETWEEN_CHECKS = 50
 MOST_CHECKS = 4000
@@ -54,6 +57,19 @@ def unbalanced_share(grid: Grid, gravity: float) -> float:
     return float(np.sqrt((np.sum(force_x**2) + np.sum(force_y**2)) / weight))
 
 
+def loading_model(model: Model) -> Model:
+    """Return the model with all that its in-situ state depends on, and standard values for what matters later only."""
+    elastic = tuple(each._replace(law=each.law._replace(softening=NO_SOFTENING)) for each in model.materials)
+    return model._replace(
+        materials=elastic,
+        courant=min(model.courant, MOST_COURANT),
+        method=Method(model.method.basis, locking=model.method.locking),
+        internal_length=0.0,
+        ramp_time=0.0,
+        criteria=PAPER,
+    )
+
+
 def in_situ_state(model: Model, from_nothing: bool = False) -> Particles:
     """Return the particles at rest under gravity, unyielding, with zero velocity.
 
@@ -69,13 +85,14 @@ def in_situ_state(model: Model, from_nothing: bool = False) -> Particles:
     NotSettledError
         If the unbalanced force does not fall below 1e-4 of the weight.
     """
+    model = loading_model(model)
     particles = ground_of(model)
     if not from_nothing:
         lay_geostatic_stress(particles, model)
     grid = model.allocate_grid()
     work = allocate_workspace(particles.x.size)
-    scheme = scheme_of(Method(model.method.basis, locking=model.method.locking), damping=LOCAL_DAMPING)
-    dt = stable_step(min(model.courant, 0.5), model.cell_size, model.wave_speed, 0.0)
+    scheme = scheme_of(model.method, damping=LOCAL_DAMPING)
+    dt = stable_step(model.courant, model.cell_size, model.wave_speed, 0.0)
     unbalanced = np.inf
     steps = 0
     tiles = fill_tiles(particles, grid, work.tiles)

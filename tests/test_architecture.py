@@ -83,7 +83,8 @@ def test_no_import_runs_in_a_circle():
 
 ROOMS = (
     "solver",
-    "campaign.errors campaign.exit_codes campaign.files campaign.record campaign.seeds campaign.terminal",
+    "campaign.errors campaign.exit_codes campaign.files campaign.kept_arrays campaign.record campaign.seeds "
+    "campaign.terminal",
     "campaign.fields",
     "campaign.scene",
     "campaign.storage",

@@ -18,6 +18,7 @@ from campaign.scene.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import TEXT, sizes
 from campaign.simulation.field_summary import BoxMap, box_map
+from campaign.simulation.kept_in_situ import kept_in_situ_state
 from campaign.simulation.quantities import QUANTITIES
 from campaign.simulation.realization import never, nothing, simulate
 from campaign.simulation.scene_sampler import strength_sampler
@@ -25,7 +26,7 @@ from campaign.simulation.solver_model import Array, column_edges, model_of, outp
 from campaign.terminal import say
 from solver.compile_cache import telling_of_compilation
 from solver.filling import ground_of
-from solver.in_situ import NotSettledError, in_situ_state
+from solver.in_situ import NotSettledError
 from solver.march import March
 from solver.model import Model
 from solver.observables import deposit_surface
@@ -212,7 +213,8 @@ def prepare(scene: Scene, directory: Path | None = None) -> Ground:
     ----------
     scene : Scene
     directory : Path, optional
-        Where the field sampler may keep a large factor; without one it is held in memory.
+        Of the campaign, where the in-situ state and a large factor of the field sampler are kept; without one both are
+        held in memory.
 
     Raises
     ------
@@ -225,7 +227,7 @@ def prepare(scene: Scene, directory: Path | None = None) -> Ground:
     lattice = ground_of(model)
     is_ramp = scene.numerics.gravity == "ramp"
     with telling_of_compilation(lambda: say(COMPILING)):
-        settled = _loaded(model, from_nothing=is_ramp)
+        settled = _loaded(model, is_ramp, directory)
     in_situ = copy_particles(lattice) if is_ramp else settled
     return Ground(scene, model, lattice, in_situ, settled, _sampler(scene, model.surface, directory))
 
@@ -235,9 +237,9 @@ def strengths_of(scene: Scene, realization: int) -> Strengths:
     return _sampler(scene, surface_of(scene.geometry), None).draw(scene.campaign.seed, realization)
 
 
-def _loaded(model: Model, from_nothing: bool) -> Particles:
+def _loaded(model: Model, from_nothing: bool, directory: Path | None) -> Particles:
     try:
-        return in_situ_state(model, from_nothing)
+        return kept_in_situ_state(model, from_nothing, directory)
     except NotSettledError as error:
         raise RefusalError(str(error)) from error
 

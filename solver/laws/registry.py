@@ -22,6 +22,10 @@ class Law(Protocol):
     def softening(self) -> Softening:
         """How its strength falls."""
 
+    @property
+    def _replace(self) -> Callable[..., Any]:
+        """Makes another one, with some parameters changed; every law is a ``NamedTuple``."""
+
 
 class Constants(NamedTuple):
     """Engineering constants that every law is made from; each takes those it needs."""
