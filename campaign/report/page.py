@@ -33,13 +33,15 @@ from campaign.storage.layout import FIGURES, REPORT
 from campaign.terminal import counted, say
 
 
-def write_report(directory: Path) -> Path:
+def write_report(directory: Path, simulate: bool = True) -> Path:
     """Draw the figures of a finished campaign and write its page.
 
     Parameters
     ----------
     directory : Path
         Of the campaign. Its `figures/` receive one SVG each.
+    simulate : bool
+        Whether to simulate again the slides to draw that are not kept there.
 
     Returns
     -------
@@ -55,7 +57,7 @@ def write_report(directory: Path) -> Path:
     remarks = doubts_about(directory, results)
     for remark in remarks:
         say(remark)
-    replayed, differences = replays(results, directory)
+    replayed, differences = replays(results, directory, simulate)
     page = directory / REPORT
     try:
         with in_style():

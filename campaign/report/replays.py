@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from campaign.errors import RefusalError
-from campaign.report.figures.configurations import TIMES
-from campaign.report.snapshots import ReplayedSlide, replay
+from campaign.report.kept_slides import kept_slide, slide_again
+from campaign.report.snapshots import ReplayedSlide, frame_times
 from campaign.results.results import Results
 from campaign.seeds import BASELINE
 from campaign.simulation.ground import Ground, prepare
@@ -16,9 +16,6 @@ from campaign.storage.access import check_digest
 
 RANKS = {"shortest": 0.0, "median": 0.5, "longest": 1.0}
 """The slides to look at, and the share of run-outs below theirs."""
-
-FRAMES = 21
-"""Of a film; there are two in a second where a run ends after 10 s."""
 
 
 class Replays(NamedTuple):
@@ -30,15 +27,30 @@ class Replays(NamedTuple):
     times: Array  # (t,) s, of the frames of a film
 
 
-def replays(results: Results, directory: Path) -> tuple[Replays | None, list[str]]:
-    """Simulate the slides to draw again, and say if they are not the recorded ones.
+def shown_slides(results: Results) -> dict[str, int]:
+    """Return the slides that are drawn, by their rank and "deterministic"; without a slide there is none to draw."""
+    if not results.outcomes.slides:
+        return {"deterministic": BASELINE} if results.deterministic > 0 else {}
+    return {"deterministic": BASELINE} | {called: results.ranked(share) for called, share in RANKS.items()}
 
-    Without a slide there is none to draw. Where it cannot be done, the page has fewer figures and a sentence.
+
+def replays(results: Results, directory: Path, simulate: bool) -> tuple[Replays | None, list[str]]:
+    """Return the slides to draw, and say if they are not the recorded ones.
+
+    Where it cannot be done, the page has fewer figures and a sentence.
+
+    Parameters
+    ----------
+    results, directory
+        Of the campaign.
+    simulate
+        Whether to simulate again what is not kept there.
     """
-    if not results.outcomes.slides and not results.deterministic > 0:
+    shown = shown_slides(results)
+    if not shown:
         return None, []
     try:
-        replayed = _simulated(results, directory)
+        replayed = _replayed(results, directory, shown, simulate)
     except RefusalError as refusal:
         return None, [str(refusal)]
     except Exception as error:
@@ -46,14 +58,23 @@ def replays(results: Results, directory: Path) -> tuple[Replays | None, list[str
     return replayed, _differences(results, replayed)
 
 
-def _simulated(results: Results, directory: Path) -> Replays:
+def _replayed(results: Results, directory: Path, shown: dict[str, int], simulate: bool) -> Replays:
     check_digest(results.scene, results.data.attrs["scene_sha256"])
     ground = prepare(results.scene, directory)
-    times = np.linspace(0.0, results.scene.numerics.end_time, FRAMES)
-    wanted = {results.ranked(share): share for share in RANKS.values()} if results.outcomes.slides else {}
-    seen = {k: replay(ground, k, times.tolist() if share == RANKS["median"] else ()) for k, share in wanted.items()}
-    ranked = {called: seen[results.ranked(share)] for called, share in RANKS.items()} if seen else {}
-    return Replays(ground, replay(ground, BASELINE, [*TIMES, *times.tolist()]), ranked, times)
+    seen = {k: _slide(ground, directory, k, simulate) for k in dict.fromkeys(shown.values())}
+    ranked = {called: seen[k] for called, k in shown.items() if called in RANKS}
+    return Replays(ground, seen[BASELINE], ranked, frame_times(results.scene.numerics.end_time))
+
+
+def _slide(ground: Ground, directory: Path, realization: int, simulate: bool) -> ReplayedSlide:
+    if simulate:
+        return slide_again(ground, directory, realization)
+    if found := kept_slide(ground, directory, realization):
+        return found
+    raise RefusalError(
+        "Single slides are not drawn, because some would have to be simulated again; "
+        f"that is what campaign report {directory} does."
+    )
 
 
 def _differences(results: Results, replayed: Replays) -> list[str]:

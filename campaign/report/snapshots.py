@@ -1,6 +1,6 @@
 """Pictures of a slide on its way, for the figures; taken while the realization is simulated again."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -8,9 +8,16 @@ import numpy as np
 
 from campaign.record import Front, Record
 from campaign.simulation.ground import Ground
+from campaign.simulation.realization import never
 from campaign.simulation.solver_model import Array
 from solver.march import March
 from solver.observables import displacement, runout, runout_mass
+
+TIMES = (3.0, 5.0)
+"""Seconds after release at which the paper shows the deterministic slide, besides its end."""
+
+FRAMES = 21
+"""Of a film; there are two in a second where a run ends after 10 s."""
 
 
 class Snapshot(NamedTuple):
@@ -37,7 +44,7 @@ class ReplayedSlide:
     raised_shares : mapping
         Share of the particles at which a drawn peak strength was below the residual one and was raised to it, by name.
     snapshots : sequence of Snapshot
-        At the times asked for that came before the end, and at the end.
+        At the output times nearest to `TIMES` and `frame_times` that came before the end, and at the end.
     """
 
     record: Record
@@ -60,9 +67,22 @@ class ReplayedSlide:
         return next((shot for shot in reversed(self.snapshots) if shot.time <= time + 1e-9), self.snapshots[0])
 
 
-def replay(ground: Ground, realization: int, times: Sequence[float] = ()) -> ReplayedSlide:
-    """Simulate a realization again and take snapshots at the output times nearest to `times` (s), and at the end."""
-    outputs = ground.coordinates["time"]
+def frame_times(end_time: float) -> Array:
+    """Return the times (s) of the frames of a film."""
+    return np.linspace(0.0, end_time, FRAMES)
+
+
+def replay(ground: Ground, realization: int, interrupt: Callable[[], bool] = never) -> ReplayedSlide:
+    """Simulate a realization again and take the snapshots that figures and films show.
+
+    Parameters
+    ----------
+    ground, realization
+        Whose.
+    interrupt
+        See `Ground.simulate`, and for what it raises.
+    """
+    outputs, times = ground.coordinates["time"], [*TIMES, *frame_times(ground.scene.numerics.end_time)]
     wanted = {float(outputs[np.argmin(np.abs(outputs - time))]) for time in times}
     snapshots: list[Snapshot] = []
     front = ground.scene.slide.front
@@ -72,10 +92,14 @@ def replay(ground: Ground, realization: int, times: Sequence[float] = ()) -> Rep
             snapshots.pop()
         snapshots.append(snapshot(march, front))
 
-    record = ground.simulate(realization, observe=observe)
-    released = ground.released(realization)
+    return slide_of(ground, ground.simulate(realization, interrupt, observe), snapshots)
+
+
+def slide_of(ground: Ground, record: Record, snapshots: Sequence[Snapshot]) -> ReplayedSlide:
+    """Return a slide from what is known of its way, with the soil it slid in."""
+    released = ground.released(record.realization)
     soil = {row.name: getattr(released, row.particle_array) for row in ground.random_properties}
-    return ReplayedSlide(record, soil, ground.raised_shares(realization), snapshots)
+    return ReplayedSlide(record, soil, ground.raised_shares(record.realization), snapshots)
 
 
 def snapshot(march: March, front: Front) -> Snapshot:

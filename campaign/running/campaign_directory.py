@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TypeAlias
 
 from campaign.errors import RefusalError
 from campaign.exit_codes import ExitCode
@@ -18,9 +17,6 @@ from campaign.storage.layout import RESULTS
 from campaign.storage.lock import DirectoryLock
 from campaign.storage.provenance import attributes
 from campaign.terminal import counted, say
-
-WriteReport: TypeAlias = Callable[[Path], Path]
-"""Makes the report of a results directory and returns its page."""
 
 
 @contextmanager
@@ -79,7 +75,7 @@ class CampaignDirectory:
         ground: PreparedGround,
         tally: Tally,
         beyond: BeyondSampling,
-        write_report: WriteReport | None,
+        draw_report: Callable[[], None] | None,
     ) -> ExitCode:
         """Write the results, draw them, say how the campaign ended, and return its exit code.
 
@@ -89,8 +85,8 @@ class CampaignDirectory:
             Of the campaign.
         beyond
             What it knows of errors beyond sampling, and why not all was done.
-        write_report
-            Makes the report.
+        draw_report
+            Called once the results are written; None for no report.
         """
         code, verdict = _end(tally, beyond.stopped)
         say(f"\n{self.scene.title}: {verdict}")
@@ -104,8 +100,8 @@ class CampaignDirectory:
             return ExitCode.RESUMABLE
         if tally.prefix > 0:
             say(f"Results: {self.path / RESULTS} (opens with xarray)")
-            if write_report is not None:
-                _attempt(write_report, self.path)
+            if draw_report is not None:
+                draw_report()
             say(f"One realization again, with all particles: campaign replay {self.path} K")
         if code is ExitCode.RESUMABLE:
             say("Give the same command again to continue.")
@@ -144,11 +140,3 @@ def _end(tally: Tally, stopped: str) -> tuple[ExitCode, str]:
     if tally.history().converged_at is None:
         return ExitCode.DONE, f"stopped at the maximum of {counted(tally.maximum, 'realization')}; {verdict}"
     return ExitCode.DONE, verdict
-
-
-def _attempt(write_report: WriteReport, directory: Path) -> None:
-    """Draw the report if that can be done; the results do not depend on it."""
-    try:
-        say(f"Report: {write_report(directory)}")
-    except Exception as error:
-        say(f"The report could not be made ({error!r}); results.nc is safe. Try again: campaign report {directory}")

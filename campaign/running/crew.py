@@ -21,6 +21,7 @@ class Order(NamedTuple):
     scene: str  # SHA-256 of the one that the records belong to
     timeout: float  # s, of a realization
     job_end: float  # s since the epoch
+    breaks_off: bool  # what is under way when somebody asks for an end
 
 
 class Crew(Protocol):
@@ -57,7 +58,7 @@ class Alone:
 
 def worker_of(order: Order, rank: int, stop: StopRequest, aside: Callable[[], None]) -> Worker:
     """Return a rank's worker for an order; `aside` is called from within its time loop."""
-    interrupt = Interrupt(stop, order.job_end, order.timeout, aside)
+    interrupt = Interrupt(stop, order.job_end, order.timeout, aside, order.breaks_off)
     store = RecordStore(order.directory, order.scene)
     return Worker(order.ground, store, Attempts(order.directory), rank, interrupt)
 

@@ -20,9 +20,10 @@ from mpi4py import MPI
 from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
 from campaign.running import launcher
-from campaign.running.campaign_directory import WriteReport, opened
+from campaign.running.campaign_directory import opened
 from campaign.running.crew import Order, work, worker_of
 from campaign.running.dispatcher import Dispatcher
+from campaign.running.reporting import WriteReport
 from campaign.running.runner import conduct
 from campaign.running.stop_request import StopRequest, listening
 from campaign.scene import Scene

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING
 from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
 from campaign.running.beyond_sampling import BeyondSampling, beyond_sampling
-from campaign.running.campaign_directory import CampaignDirectory, WriteReport, opened
+from campaign.running.campaign_directory import CampaignDirectory, opened
 from campaign.running.crew import Alone, Crew, Order
 from campaign.running.dispatcher import Dispatcher
 from campaign.running.level import Level
 from campaign.running.progress import Progress, nothing_ahead
+from campaign.running.reporting import WriteReport, draw_report
 from campaign.running.side_run import Means
 from campaign.running.stop_request import StopRequest, listening
 from campaign.running.walltime import job_end
@@ -109,9 +110,10 @@ def conduct(
     tally = directory.level.tally()
     directory.announce(crew.size, tally)
 
-    def hand_out(level: Level, ground: PreparedGround, tally: Tally) -> str:
+    def hand_out(level: Level, ground: PreparedGround, tally: Tally, breaks_off: bool = False) -> str:
         wanted = level.scene
-        order = Order(ground, level.directory, wanted.digest(), wanted.campaign.realization_timeout, end)
+        timeout = wanted.campaign.realization_timeout
+        order = Order(ground, level.directory, wanted.digest(), timeout, end, breaks_off)
         dispatcher = Dispatcher(tally, _obstacle(stop, end), level.tidier(tally))
         ahead = partial(seconds_beyond_sampling, wanted, crew.size) if level is directory.level else nothing_ahead
         progress = Progress(tally, ahead)
@@ -119,10 +121,12 @@ def conduct(
         return dispatcher.stopped
 
     stopped = hand_out(directory.level, ground, tally)
-    beyond = BeyondSampling(stopped)
+    beyond, means = BeyondSampling(stopped), Means(directory.path, prepare, hand_out, stopped)
     if tally.size is not None:
-        beyond = beyond_sampling(directory.scene, tally, Means(directory.path, prepare, hand_out, stopped))
-    return directory.conclude(ground, tally, beyond, write_report)
+        beyond = beyond_sampling(directory.scene, tally, means)
+    means = means.after(beyond.stopped)
+    draw = None if write_report is None else partial(draw_report, tally, means, stop, write_report)
+    return directory.conclude(ground, tally, beyond, draw)
 
 
 def _obstacle(stop: StopRequest, end: float) -> Callable[[float], str]:

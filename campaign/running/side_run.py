@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from campaign.errors import RefusalError
 from campaign.record import RealizationSummary
@@ -12,8 +12,12 @@ from campaign.simulation.contract import Prepare, PreparedGround
 from campaign.statistics.tally import Tally
 from campaign.terminal import say
 
-HandOut = Callable[[Level, PreparedGround, Tally], str]
-"""Has all ranks compute what an account lacks, and says why that ended early, "" if it did not."""
+
+class HandOut(Protocol):
+    """Has all ranks compute what an account lacks, and says why that ended early, "" if it did not."""
+
+    def __call__(self, level: Level, ground: PreparedGround, tally: Tally, breaks_off: bool = False) -> str:
+        """Leave what is under way when somebody asks for an end, if it `breaks_off`; else finish it."""
 
 
 class Means(NamedTuple):
@@ -56,6 +60,8 @@ class SideRun(NamedTuple):
         A sentence on what cannot be said without them.
     known
         Those of them that need not be made.
+    breaks_off
+        Whether what is under way is left when somebody asks for an end; else it is finished.
     """
 
     scene: Callable[[], Scene]
@@ -63,6 +69,7 @@ class SideRun(NamedTuple):
     announcement: str
     loss: str
     known: Iterable[RealizationSummary] = ()
+    breaks_off: bool = False
 
 
 class Made(NamedTuple):
@@ -94,7 +101,7 @@ def _compute(level: Level, run: SideRun, means: Means) -> Made:
     ground = means.prepare(level.scene, means.home)
     level.give_up_crashed(ground)
     tally = _account(level, run)
-    stopped = means.hand_out(level, ground, tally)
+    stopped = means.hand_out(level, ground, tally, run.breaks_off)
     return _made(tally, stopped)
 
 

@@ -10,24 +10,41 @@ ECHO = 1.0
 """Seconds within which a repeated interrupt is one key press that came by the process group and by the launcher."""
 
 
+class BrokenOff(BaseException):
+    """What was under way was left at somebody's request."""
+
+
 class StopRequest:
     """Whether somebody asked for an end.
 
     `drain` is set by the first USR1, TERM or INT: start nothing new, finish what is under way. `now` is set by a second
-    INT: abandon it.
+    INT: abandon it. Within `breaking_off` any of them raises `BrokenOff` besides.
     """
 
     def __init__(self) -> None:
         self.drain = False
         self.now = False
         self._first = 0.0
+        self._breaks_off = False
 
     def receive(self, number: int, _frame: FrameType | None = None) -> None:
-        """Handle a signal; does nothing but set flags, since it may interrupt anything."""
+        """Handle a signal; sets flags and, since it may interrupt anything, does more only where that is allowed."""
         repeated = self.drain and time.monotonic() - self._first > ECHO
         self.now = self.now or (repeated and number == signal.SIGINT)
         if not self.drain:
             self.drain, self._first = True, time.monotonic()
+        if self._breaks_off:
+            self._breaks_off = False
+            raise BrokenOff
+
+    @contextmanager
+    def breaking_off(self) -> Iterator[None]:
+        """Let a signal raise `BrokenOff` inside this, for work that another day can do as well."""
+        self._breaks_off = True
+        try:
+            yield
+        finally:
+            self._breaks_off = False
 
 
 @contextmanager

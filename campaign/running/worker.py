@@ -30,12 +30,15 @@ class Interrupt:
         Wall-clock time that a realization may take [s].
     poll
         Called each time, for what has to be done in between.
+    breaks_off
+        Whether the first request to stop is enough to leave.
     """
 
     stop: StopRequest
     job_end: float
     timeout: float
     poll: Callable[[], None]
+    breaks_off: bool = False
     begin: float = 0.0
 
     def restart(self) -> None:
@@ -50,7 +53,7 @@ class Interrupt:
     @property
     def abandons(self) -> str:
         """Why the realization is to be left and begun again another day, "" if it is not."""
-        if self.stop.now:
+        if self.stop.now or (self.breaks_off and self.stop.drain):
             return "asked to stop"
         return "the job's time is nearly over" if time.time() > self.job_end - LAST_CALL else ""
 

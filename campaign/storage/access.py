@@ -18,11 +18,12 @@ from campaign.storage.layout import (
     OTHER_RELEASE,
     PACKS,
     RECORDS,
+    SNAPSHOTS,
 )
 
 Manifest = dict[str, Any]
 
-OWN = {LOCK, RECORDS, PACKS, ATTEMPTS, HALF_CELL, OTHER_RELEASE, CHANGED_INPUTS}
+OWN = {LOCK, RECORDS, PACKS, ATTEMPTS, HALF_CELL, OTHER_RELEASE, CHANGED_INPUTS, SNAPSHOTS}
 """What a campaign that was killed before its manifest was written may leave."""
 
 FRONT_BEFORE_THERE_WAS_A_KEY = "tip"

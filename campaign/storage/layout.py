@@ -25,6 +25,9 @@ HALF_CELL = "half-cell"
 OTHER_RELEASE = "other-release"
 """Holds the deterministic run with the other release protocol, in the same layout."""
 
+SNAPSHOTS = "snapshots"
+"""Holds the slides that the report draws, simulated again, in the same layout, and what they looked like on the way."""
+
 CHANGED_INPUTS = "changed-inputs"
 """Holds a directory for each input, named by its key: the slides repeated with more of it, in the same layout."""
 
@@ -61,6 +64,11 @@ def pack_of(name: str) -> int | None:
 def attempt_file(rank: int) -> str:
     """Return the name of the file in which a rank says what it has begun."""
     return f"rank-{rank:04d}"
+
+
+def snapshots_file(realization: int) -> str:
+    """Return the name of the file that holds what a realization looked like on its way."""
+    return f"{realization_name(realization)}.arrays"
 
 
 def replay_file(realization: int) -> str:

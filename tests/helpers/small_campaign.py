@@ -24,7 +24,7 @@ def small_scene(*overrides):
 
 def run(directory, scene):
     """Run a campaign without MPI."""
-    ground = prepare(scene, directory)
+    ground = prepare(scene)
     ids = range(BASELINE, scene.campaign.realizations)
     records = [ground.simulate(k) for k in ids]
     conclude(directory, scene, ground, records)

@@ -5,11 +5,8 @@ from campaign.report.figures.particles import Scale
 from campaign.report.figures.section import Section
 from campaign.report.figures.stack import OUTLINE, colour_bar, draw_slide, stack, upper_limit
 from campaign.report.figures.style import Illustration, letter, need
-from campaign.report.snapshots import ReplayedSlide
+from campaign.report.snapshots import TIMES, ReplayedSlide
 from campaign.simulation.ground import Ground
-
-TIMES = (3.0, 5.0)
-"""Seconds after release at which the paper shows the deterministic slide, besides its end."""
 
 
 def configurations(section: Section, ground: Ground, slide: ReplayedSlide) -> Illustration:

@@ -1,7 +1,6 @@
 """How the final run-outs of the slides are distributed."""
 
 import numpy as np
-from scipy import stats
 
 from campaign.report import estimates
 from campaign.report.figures.style import BLACK, BLUE, COLUMN, GREY, Illustration, need, need_slides, new_figure
@@ -23,7 +22,8 @@ def histogram(results: Results) -> Illustration:
     for count, low, high, bar in zip(counts, edges[:-1], edges[1:], bars, strict=True):
         on_hover(bar, f"{low:.2f} to {high:.2f} m: {counted(count, 'slide')} ({100 * count / n:.3g} %)")
     x = np.linspace(max(0.0, mean - 3.5 * std), mean + 3.5 * std, 100)
-    axes.plot(x, n * (edges[1] - edges[0]) * stats.norm.pdf(x, mean, std), color=BLUE, label="normal distribution")
+    density = np.exp(-0.5 * ((x - mean) / std) ** 2) / (std * np.sqrt(2.0 * np.pi))
+    axes.plot(x, n * (edges[1] - edges[0]) * density, color=BLUE, label="normal distribution")
     if np.isfinite(results.deterministic):
         label = f"mean strengths: {results.deterministic:.2f} m"
         axes.axvline(results.deterministic, color=BLACK, linestyle="--", label=label)

@@ -7,12 +7,16 @@ from typing import Any, Final
 
 import matplotlib as mpl
 from matplotlib.artist import Artist
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 
 from campaign.report.figures.style import Illustration
 
 FONTS: Final = "system-ui,-apple-system,Segoe UI,Roboto,Helvetica Neue,Arial,DejaVu Sans,sans-serif"
 
 HOVER: Final = "hover:"
+
+DOTS_PER_INCH: Final = 220
+"""Of what is drawn as an image."""
 
 NUMBER = re.compile(r"-?\d+\.\d+")
 LINES = re.compile(r'(?<=\sd=")[^"]*')
@@ -29,7 +33,8 @@ def svg_of(illustration: Illustration, name: str) -> str:
     settings: dict[Any, Any] = {"svg.fonttype": "none", "svg.hashsalt": name, "svg.image_inline": True}
     with mpl.rc_context(settings):
         nothing = dict.fromkeys(("Creator", "Date", "Format", "Type"))
-        illustration.figure.savefig(buffer, format="svg", metadata=nothing, dpi=220)
+        illustration.figure.set_dpi(DOTS_PER_INCH)
+        FigureCanvasSVG(illustration.figure).print_svg(buffer, metadata=nothing)  # savefig draws twice
     return _compact(buffer.getvalue(), illustration.alt)
 
 

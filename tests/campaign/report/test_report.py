@@ -18,7 +18,7 @@ from campaign.report.answer import answer
 from campaign.report.error_budget import error_budget
 from campaign.report.page import write_report
 from campaign.report.provenance import doubts_about
-from campaign.report.snapshots import replay
+from campaign.report.snapshots import FRAMES, replay
 from campaign.report.summary import summary
 from campaign.report.wording import number
 from campaign.results.results import Results, read_results
@@ -79,7 +79,7 @@ def ground():
 @pytest.fixture
 def without_replays(monkeypatch):
     """For pages whose words alone are of interest."""
-    monkeypatch.setattr(page_module, "replays", lambda _results, _directory: (None, []))
+    monkeypatch.setattr(page_module, "replays", lambda *_arguments: (None, []))
 
 
 @pytest.fixture(scope="module")
@@ -168,9 +168,9 @@ def test_the_films_hold_each_frame_of_each_area(page):
     films = json.loads(page.data[1])
     assert len(films) == FILMS
     for film in films:
-        areas = len(film["levels"]) // 4 * 3 // replays.FRAMES
+        areas = len(film["levels"]) // 4 * 3 // FRAMES
         assert areas > 100
-        assert len(film["captions"]) == replays.FRAMES
+        assert len(film["captions"]) == FRAMES
         assert len(film["places"]) == pytest.approx(4 * len(film["levels"]), abs=8)
         assert len(film["shapes"]) == pytest.approx(4 * len(film["levels"]), abs=8)
     assert len(page.source) < 3e6
