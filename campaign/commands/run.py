@@ -11,6 +11,7 @@ from campaign.running.launcher import SIZES
 
 if TYPE_CHECKING:
     from campaign.scene import Scene
+    from campaign.simulation.ground import Ground
 
 HELP = "run a campaign, or continue it"
 
@@ -51,14 +52,26 @@ def _scene_that_can_run(options: argparse.Namespace) -> "Scene":
 
 
 def _run_on_ranks(options: argparse.Namespace, scene: "Scene | None") -> ExitCode:
-    from campaign.report.page import write_report
     from campaign.running.mpi import run_on_ranks
-    from campaign.simulation.ground import prepare
 
     return run_on_ranks(
         lambda: scene or _scene_that_can_run(options),
         options.out or scene_directory(options),
-        prepare,
-        write_report,
+        _prepare,
+        _write_report,
         options.allow_drift,
     )
+
+
+def _prepare(scene: "Scene", directory: Path) -> "Ground":
+    """Load the solver when it is needed, and not before a mistake in the scene is told."""
+    from campaign.simulation.ground import prepare
+
+    return prepare(scene, directory)
+
+
+def _write_report(directory: Path, simulate: bool) -> Path:
+    """Load what draws when there is something to draw, and on no rank that draws nothing."""
+    from campaign.report.page import write_report
+
+    return write_report(directory, simulate)

@@ -58,9 +58,7 @@ class FilmedGround:
 def keep_slide(slide: ReplayedSlide, ground: Ground, home: Path) -> None:
     """Keep the snapshots of a slide in the directory of its campaign; raises OSError where that cannot be done."""
     record, shots = slide.record, slide.snapshots
-    arrays: dict[str, NDArray[Any]] = {
-        name: np.array([getattr(shot, name) for shot in shots], dtype="f4") for name in OF_PARTICLES
-    }
+    arrays: dict[str, NDArray[Any]] = {name: np.array([getattr(shot, name) for shot in shots]) for name in OF_PARTICLES}
     arrays |= {name: np.array([getattr(shot, name) for shot in shots]) for name in ("time", "runout")}
     arrays |= {"status": np.array(int(record.status)), "reason": np.array(record.reason)}
     arrays |= {"final_runout": np.array(record.values["final_runout"])}
@@ -68,7 +66,7 @@ def keep_slide(slide: ReplayedSlide, ground: Ground, home: Path) -> None:
 
 
 def kept_slide(ground: Ground, home: Path, realization: int) -> ReplayedSlide | None:
-    """Return a slide that was kept, in single precision; None if it was not, or its file is damaged."""
+    """Return a slide that was kept; None if it was not, or its file is damaged."""
     arrays = kept(_path(home, realization), _key(ground, realization))
     if arrays is None:
         return None

@@ -2,9 +2,10 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from campaign.record import Front, Record
 from campaign.simulation.ground import Ground
@@ -12,6 +13,8 @@ from campaign.simulation.realization import never
 from campaign.simulation.solver_model import Array
 from solver.march import March
 from solver.observables import displacement, runout, runout_mass
+
+Single = NDArray[Any]  # of np.float32
 
 TIMES = (3.0, 5.0)
 """Seconds after release at which the paper shows the deterministic slide, besides its end."""
@@ -21,14 +24,14 @@ FRAMES = 21
 
 
 class Snapshot(NamedTuple):
-    """The particles at one time."""
+    """The particles at one time, in single precision."""
 
     time: float  # s since release
-    x: Array  # (n,) m
-    y: Array  # (n,) m
-    displacement: Array  # (n,) m from the ground at rest
-    plastic_strain: Array  # (n,)
-    volume: Array  # (n,) m2
+    x: Single  # (n,) m
+    y: Single  # (n,) m
+    displacement: Single  # (n,) m from the ground at rest
+    plastic_strain: Single  # (n,)
+    volume: Single  # (n,) m2
     runout: float  # m
 
 
@@ -108,4 +111,7 @@ def snapshot(march: March, front: Front) -> Snapshot:
     moved = displacement(now, reference)
     measure = runout_mass if front == "mass" else runout
     ran = measure(now, reference, march.model.surface, march.model.criteria)
-    return Snapshot(march.time, now.x.copy(), now.y.copy(), moved, now.plastic_strain.copy(), now.volume.copy(), ran)
+    x, y, moved, strain, volume = (
+        values.astype(np.float32) for values in (now.x, now.y, moved, now.plastic_strain, now.volume)
+    )
+    return Snapshot(march.time, x, y, moved, strain, volume, ran)

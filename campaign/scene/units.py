@@ -114,6 +114,7 @@ def _registry() -> "pint.UnitRegistry[float]":
     return pint.UnitRegistry()
 
 
+@cache
 def _known_unit(text: str, kind: Kind) -> "pint.Unit":
     """Return the product of the units named in a text; pint looks each name up and evaluates nothing."""
     try:

@@ -38,6 +38,16 @@ def test_an_unknown_key_is_a_sentence_and_not_a_traceback(command, tmp_path):
     assert not (tmp_path / "x").exists()
 
 
+def test_a_rank_loads_neither_solver_nor_figures_before_the_scene_is_read():
+    """A mistake in it is then told within a second, and a rank that draws nothing keeps its memory."""
+    heavy = ("numba", "pandas", "xarray", "matplotlib", "jinja2", "scipy.stats")
+    program = (
+        f"import sys, campaign.running.mpi, campaign.commands.run; print([m for m in {heavy} if m in sys.modules])"
+    )
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert result.stdout.strip() == "[]"
+
+
 def test_later_options_win_over_set():
     options = cli.parser().parse_args(["run", "s", "--seed", "7", "--realizations", "4", "--set", "campaign.seed=1"])
     assert overrides(options) == ["campaign.seed=1", "campaign.realizations=4", "campaign.seed=7"]
