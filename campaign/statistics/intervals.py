@@ -101,9 +101,8 @@ def kurtosis(values: Sample) -> float:
     n = len(values)
     if n < FEWEST_FOR_KURTOSIS or np.ptp(values) == 0:
         return math.nan
-    from scipy.stats import trim_mean  # takes half a second to load, which not every rank should pay
-
-    centre = trim_mean(values, 1 / (2 * math.sqrt(n - 4)))
+    left_out = int(n / (2 * math.sqrt(n - 4)))  # at either end; written out, as scipy.stats takes a second to load
+    centre = np.mean(np.sort(values)[left_out : n - left_out])
     return float(n * np.sum((values - centre) ** 4) / np.sum((values - np.mean(values)) ** 2) ** 2)
 
 
@@ -176,7 +175,8 @@ def quantile_interval(values: Sample, probability: float, confidence: float) -> 
     n = len(values)
     if n == 0:
         return unknown(math.nan, 0)
-    from scipy.stats import quantile_test
-
-    bounds = quantile_test(values, p=probability).confidence_interval(confidence)
-    return Interval(float(np.quantile(values, probability)), float(bounds.low), float(bounds.high), n)
+    below = special.bdtr(np.arange(n), n, probability)  # chance that so many values or fewer lie below the quantile
+    tail = (1 - confidence) / 2
+    first, last = np.searchsorted(below, [tail, 1 - tail])
+    ordered = np.append(np.sort(values), math.nan)  # where the rank before the first and the one after the last lead
+    return Interval(float(np.quantile(values, probability)), float(ordered[first - 1]), float(ordered[last]), n)

@@ -5,7 +5,7 @@ from functools import lru_cache
 
 from scipy import special
 
-from campaign.statistics.intervals import Interval, unknown
+from campaign.statistics.intervals import Interval, normal_quantile, unknown
 from campaign.statistics.outcomes import Outcomes
 
 
@@ -37,17 +37,25 @@ def exact_interval(successes: int, n: int, confidence: float) -> Interval:
 def proportion_interval(successes: int, n: int, confidence: float) -> Interval:
     """Proportion with Wilson's score interval, which stays inside [0, 1] and does not collapse at 0 or n successes.
 
+    (k + z^2 / 2 +- z sqrt(k (n - k) / n + z^2 / 4)) / (n + z^2); written out, as scipy.stats takes a second to load.
+
     Returns
     -------
     Interval
         All NaN for n = 0.
+
+    References
+    ----------
+    E. B. Wilson (1927), Journal of the American Statistical Association 22, 209-212.
     """
     if n == 0:
         return unknown(math.nan, 0)
-    from scipy.stats import binomtest  # takes half a second to load
-
-    bounds = binomtest(successes, n).proportion_ci(confidence, method="wilson")
-    return Interval(successes / n, float(bounds.low), float(bounds.high), n)
+    z = normal_quantile(confidence)
+    middle = successes + z**2 / 2
+    half_width = z * math.sqrt(successes * (n - successes) / n + z**2 / 4)
+    lower = (middle - half_width) / (n + z**2) if successes else 0.0
+    upper = (middle + half_width) / (n + z**2) if successes < n else 1.0
+    return Interval(successes / n, lower, upper, n)
 
 
 def slide_probability(outcomes: Outcomes, confidence: float) -> Interval:

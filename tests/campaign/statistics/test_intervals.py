@@ -68,6 +68,14 @@ def test_median_of_ten_lies_between_the_second_and_the_ninth():
     assert interval == Interval(estimate=5.5, lower=2.0, upper=9.0, n=10)
 
 
+@pytest.mark.parametrize("n", [1, 5, 6, 71, 72, 300])
+@pytest.mark.parametrize("probability", [0.05, 0.5, 0.95])
+def test_the_quantile_interval_is_scipys(n, probability):
+    values = np.random.default_rng(n).lognormal(size=n)
+    expected = stats.quantile_test(values, p=probability).confidence_interval(0.95)
+    np.testing.assert_array_equal(quantile_interval(values, probability, 0.95)[1:3], (expected.low, expected.high))
+
+
 @pytest.mark.parametrize(
     "interval",
     [

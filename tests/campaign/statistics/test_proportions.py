@@ -35,6 +35,13 @@ def test_the_exact_interval_is_scipys(n):
         assert exact_interval(successes, n, 0.9)[1:3] == pytest.approx((expected.low, expected.high), abs=1e-12)
 
 
+@pytest.mark.parametrize("n", [1, 7, 40, 1000])
+def test_the_interval_of_a_proportion_is_scipys(n):
+    for successes in {0, 1, n // 3, n - 1, n}:
+        expected = stats.binomtest(successes, n).proportion_ci(0.9, method="wilson")
+        assert proportion_interval(successes, n, 0.9)[1:3] == pytest.approx((expected.low, expected.high), abs=1e-12)
+
+
 @pytest.mark.parametrize("n", [10, 50, 125])
 def test_the_exact_interval_holds_for_every_probability(n):
     """Exact coverage, summed over the binomial distribution: never below 95 %, where Wilson's falls to 84 to 91 %."""
