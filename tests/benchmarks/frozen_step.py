@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
-frozen = numba.njit(fastmath={"contract", "reassoc", "arcp", "nsz"}, error_model="numpy", nogil=True)
+frozen = numba.njit(cache=True, fastmath={"contract", "reassoc", "arcp", "nsz"}, error_model="numpy", nogil=True)
 
 
 class Ground(NamedTuple):

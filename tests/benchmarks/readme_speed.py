@@ -26,7 +26,7 @@ def section():
         for name, ratio in kept["ratio"].items()
         if ratio["least"] != ratio["most"]
     )
-    machine = f"On one core of a machine with {kept['machine']['processor']}"
+    machine = f"On one core of an {kept['machine']['processor']} ({kept['machine']['vectors']})"
     return f"{machine}, median of {kept['turns']} turns (least to most):\n\n{HEAD}{rows}\n"
 
 

@@ -23,12 +23,12 @@ def plain():
 def test_the_plain_loop_takes_the_same_step(plain):
     """Round-off is all that may differ after 20 steps in full slide: 1e-16 a step, and sums of ten terms."""
     plain.back()
-    law = plain.ground.model.materials[0].law
-    ground, nodes = copied(plain.start, plain.march.grid)
+    law = plain.model.materials[0].law
+    ground, nodes = copied(plain.start, plain.grid)
     constants = law.bulk_modulus, law.shear_modulus, law.softening.rate, STANDARD_GRAVITY, plain.dt
     take_steps(ground, nodes, np.empty_like(ground.x), *constants, 20)
     plain.steps(20)
-    now = plain.march.particles
+    now = plain.particles
     assert np.max(now.plastic_strain - plain.start.plastic_strain) > 0.001
     for ours, other in (
         (now.x, ground.x[:, 0]),
@@ -44,15 +44,14 @@ def test_the_plain_loop_takes_the_same_step(plain):
 @pytest.mark.parametrize("scene", ["ma2023-printed", "ma2023"])
 def test_the_timed_parts_make_up_the_step(plain, scene):
     slide = plain if scene == "ma2023-printed" else speed.Sliding(scene, CELL)
-    march, model = slide.march, slide.ground.model
     slide.back()
     slide.steps(step_operations.STEPS)
-    mass, force = march.grid.mass.copy(), march.grid.force.copy()
+    mass, force = slide.grid.mass.copy(), slide.grid.force.copy()
     slide.back()
-    seconds = step_operations.seconds_of_parts(march.particles, march.grid, march.work, model, slide.dt)
+    seconds = step_operations.seconds_of_parts(slide.particles, slide.grid, slide.work, slide.model, slide.dt)
     assert all(second > 0.0 for second in seconds)
-    np.testing.assert_allclose(march.grid.mass, mass, rtol=0.0, atol=1e-12 * mass.max())
-    np.testing.assert_allclose(march.grid.force, force, rtol=0.0, atol=1e-9 * np.abs(force).max())
+    np.testing.assert_allclose(slide.grid.mass, mass, rtol=0.0, atol=1e-12 * mass.max())
+    np.testing.assert_allclose(slide.grid.force, force, rtol=0.0, atol=1e-9 * np.abs(force).max())
 
 
 def test_readme_shows_what_the_benchmark_has_measured():
