@@ -65,9 +65,9 @@ def _run_on_ranks(options: argparse.Namespace, scene: "Scene | None") -> ExitCod
 
 def _prepare(scene: "Scene", directory: Path) -> "Ground":
     """Load the solver when it is needed, and not before a mistake in the scene is told."""
-    from campaign.simulation.ground import prepare
+    from campaign.simulation.ground import prepare_to_run
 
-    return prepare(scene, directory)
+    return prepare_to_run(scene, directory)
 
 
 def _write_report(directory: Path, simulate: bool) -> Path:

@@ -64,14 +64,14 @@ def run(
     """
     from campaign.report.page import write_report
     from campaign.results.results import open_results
-    from campaign.simulation.ground import prepare
+    from campaign.simulation.ground import prepare_to_run
 
     asked = {"campaign.realizations": realizations, "campaign.seed": seed}
     scene = load_scene(scene, [f"{key}={value}" for key, value in asked.items() if value is not None])
     directory = Path(out or f"campaign-{scene.name}")
     is_main = threading.current_thread() is threading.main_thread()  # others may not listen to signals
     with listening() if is_main else nullcontext(StopRequest()) as stop, opened(scene, directory, 1) as opened_here:
-        code = conduct(opened_here, prepare, Alone(stop), stop, write_report if report else None)
+        code = conduct(opened_here, prepare_to_run, Alone(stop), stop, write_report if report else None)
     if code is ExitCode.RESUMABLE and not (directory / RESULTS).exists():
         raise CampaignError(f"No realization of {scene.title} was finished; call run again to continue.")
     return open_results(directory)

@@ -232,6 +232,17 @@ def prepare(scene: Scene, directory: Path | None = None) -> Ground:
     return Ground(scene, model, lattice, in_situ, settled, _sampler(scene, model.surface, directory))
 
 
+def prepare_to_run(scene: Scene, directory: Path) -> Ground:
+    """Do the same, and have the solver compiled where the ground was kept: by one process, before all ranks ask for it.
+
+    Arguments and errors are those of `prepare`.
+    """
+    ground = prepare(scene, directory)
+    with telling_of_compilation(lambda: say(COMPILING)):
+        March(ground.model, ground.settled)  # which takes no step, but is compiled for any
+    return ground
+
+
 def strengths_of(scene: Scene, realization: int) -> Strengths:
     """Draw the strengths of a realization without preparing anything else."""
     return _sampler(scene, surface_of(scene.geometry), None).draw(scene.campaign.seed, realization)

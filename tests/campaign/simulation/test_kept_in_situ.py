@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from small_campaign import small_scene
 
-from campaign.simulation import kept_in_situ
+from campaign.simulation import ground, kept_in_situ
+from campaign.simulation.ground import prepare
 from campaign.simulation.kept_in_situ import IN_SITU, kept_in_situ_state
 from campaign.simulation.solver_model import model_of
 
@@ -91,6 +92,17 @@ def test_what_matters_after_release_shares_it(tmp_path, monkeypatch, override):
     shared, is_computed = asked(tmp_path, monkeypatch, other)
     assert not is_computed
     assert_same_bits(shared, kept_in_situ_state(other, False, None))
+
+
+@pytest.mark.parametrize("start", ["first", "second"])
+def test_the_solver_is_compiled_before_ranks_ask_for_it_whether_or_not_the_state_is_kept(tmp_path, monkeypatch, start):
+    """A march compiles all kernels that a realization needs, before its first step."""
+    if start == "second":
+        prepare(small_scene(), tmp_path)
+    marches = []
+    monkeypatch.setattr(ground, "March", lambda *arguments: marches.append(arguments))
+    ground.prepare_to_run(small_scene(), tmp_path)
+    assert len(marches) == 1
 
 
 def test_settling_from_nothing_is_another_state(tmp_path, monkeypatch):
