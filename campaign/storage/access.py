@@ -119,7 +119,7 @@ def _without_manifest(directory: Path) -> Judgement:
             Access.REFUSED,
             f"{directory} is not empty ({strange[0]} is in it) and holds no campaign; give another --out.",
         )
-    if any(file for room in (RECORDS, PACKS) for file in directory.glob(f"{room}/*.h5")):
+    if any(directory.rglob("*.h5")):
         return Judgement(
             Access.REFUSED,
             f"{directory} holds records but no {MANIFEST} that says whose they are; restore it, or give another --out.",

@@ -8,6 +8,7 @@ from campaign.files import set_aside, write_atomically
 from campaign.record import RealizationSummary, Record, summarize
 from campaign.storage.layout import RECORDS, realization_file, realization_of
 from campaign.storage.record_format import from_bytes, summarized_from_bytes, to_bytes
+from campaign.storage.soundness import check_owner, check_sound
 
 
 class LooseRecords:
@@ -87,6 +88,6 @@ class LooseRecords:
         """Return a record if it is what its name and its directory say; raises DamagedRecordError if not."""
         if record.realization != realization:
             raise DamagedRecordError(f"The record in {path} is that of realization {record.realization}.")
-        if self._scene and record.scene and record.scene != self._scene:
-            raise DamagedRecordError(f"The record in {path} belongs to another scene, seed or cell.")
+        check_owner(record.scene, self._scene, f"The record in {path}")
+        check_sound([summarize(record)], f"The record in {path}")
         return record

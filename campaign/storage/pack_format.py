@@ -14,7 +14,7 @@ import h5py
 import numpy as np
 
 from campaign.errors import DamagedRecordError
-from campaign.record import SUMMARIZED, RealizationSummary, Record, Status, plain
+from campaign.record import SUMMARIZED, Record, Status, plain
 from campaign.storage import format_0
 from campaign.storage.columns import Columns, columns_of
 from campaign.storage.record_format import read_units, write_values
@@ -31,6 +31,7 @@ def to_bytes(columns: Columns) -> bytes:
     """Return the content of a pack; flags are compressed, a row at a time, so that damage stays in its row."""
     buffer = io.BytesIO()
     with h5py.File(buffer, "w", userblock_size=SIZE) as file:
+        file.attrs["scene"] = columns.scene
         file["realization"] = columns.realizations
         file["status"] = columns.statuses
         file.create_dataset("reason", data=columns.reasons, dtype=h5py.string_dtype())
@@ -65,15 +66,15 @@ def read(path: Path) -> Columns:
         raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
 
 
-def read_summaries(path: Path) -> list[RealizationSummary]:
+def read_summarized(path: Path) -> Columns:
     """Read what decisions rest on, a few columns; nothing is verified. Raises like `read`."""
     place = f"The pack {path}"
     try:
         with path.open("rb") as file:
             if seal_of(file.read(SIZE), place) is None:
-                return read(path).summaries()
+                return read(path)
         with h5py.File(path, "r") as file:
-            return _columns(file, SUMMARIZED).summaries()
+            return _columns(file, SUMMARIZED)
     except READ_ERRORS as error:
         raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
 
@@ -105,7 +106,7 @@ def _content(path: Path) -> bytes:
 def _columns(file: h5py.File, names: Collection[str]) -> Columns:
     values = {name: file[VALUES][name][()] for name in names}
     reasons, units = file["reason"].asstr()[()], read_units(file[VALUES], names)
-    return Columns(file["realization"][()], file["status"][()], reasons, values, units)
+    return Columns(file["realization"][()], file["status"][()], reasons, values, units, _scene(file))
 
 
 def _row(file: h5py.File, row: int) -> Record:
@@ -113,10 +114,14 @@ def _row(file: h5py.File, row: int) -> Record:
     values = {name: plain(column[row]) for name, column in file[VALUES].items()}
     status = Status(int(file["status"][row]))
     units = read_units(file[VALUES], values)
-    record = Record(int(file["realization"][row]), status, file["reason"].asstr()[row], values, units)
+    record = Record(int(file["realization"][row]), status, file["reason"].asstr()[row], values, units, _scene(file))
     if file["checksum"][row].decode() != _checksum(record):
         raise DamagedRecordError(f"Row {row} does not match its checksum.")
     return record
+
+
+def _scene(file: h5py.File) -> str:
+    return str(file.attrs.get("scene", ""))
 
 
 def _whole(read_one: Callable[[Any], Record], places: Iterable[Any]) -> list[Record]:
@@ -130,7 +135,7 @@ def _whole(read_one: Callable[[Any], Record], places: Iterable[Any]) -> list[Rec
 
 
 def _checksum(record: Record) -> str:
-    digest = hashlib.sha256(f"{record.realization} {int(record.status)} {record.reason}".encode())
+    digest = hashlib.sha256(f"{record.realization} {int(record.status)} {record.reason}{record.scene}".encode())
     for name, value in sorted(record.values.items()):
         array = np.asarray(value)
         digest.update(f"{name} {array.dtype.str} {array.shape}".encode())

@@ -1,22 +1,33 @@
 """The packs: files of consecutive realizations, which spare a cluster's inodes and are read in one go."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from campaign.errors import DamagedRecordError
 from campaign.files import set_aside, write_atomically
-from campaign.record import RealizationSummary, Record
+from campaign.record import RealizationSummary, Record, summarize
 from campaign.storage import pack_format
 from campaign.storage.columns import Columns
 from campaign.storage.layout import PACKS, pack_file, pack_of
+from campaign.storage.soundness import check_owner, check_sound, is_sound, may_belong
 
 
 class Packs:
-    """The files `packs/p00003.h5` of a results directory; that one holds `SIZE` realizations from 3 `SIZE` on."""
+    """The files `packs/p00003.h5` of a results directory; that one holds `SIZE` realizations from 3 `SIZE` on.
+
+    Parameters
+    ----------
+    directory
+        Of the results.
+    scene
+        SHA-256 of the scene that the packs belong to; one that says it belongs to another is damaged. "" takes all.
+    """
 
     SIZE = 256
 
-    def __init__(self, directory: Path) -> None:
+    def __init__(self, directory: Path, scene: str = "") -> None:
         self.directory = directory / PACKS
+        self._scene = scene
         self._summaries: dict[int, list[RealizationSummary]] = {}
 
     def path(self, number: int) -> Path:
@@ -38,17 +49,18 @@ class Packs:
         RefusalError
             When only a newer version of the program can read it.
         """
-        return pack_format.read(self.path(number))
+        return self._own(number, pack_format.read(self.path(number)))
 
     def summaries(self, number: int) -> list[RealizationSummary]:
         """Return the part of each record that decisions rest on; the file is read once. Raises like `read`."""
         if number not in self._summaries:
-            self._summaries[number] = pack_format.read_summaries(self.path(number))
+            read = pack_format.read_summarized(self.path(number))
+            self._summaries[number] = self._own(number, read).summaries()
         return self._summaries[number]
 
     def write(self, number: int, columns: Columns) -> None:
         """Keep a pack for good; raises OSError, leaving the old one, when the disk is full or not writable."""
-        write_atomically(self.path(number), pack_format.to_bytes(columns))
+        write_atomically(self.path(number), pack_format.to_bytes(replace(columns, scene=self._scene)))
         self._summaries[number] = columns.summaries()
 
     def check(self, number: int) -> tuple[list[Record], str]:
@@ -57,20 +69,30 @@ class Packs:
         Returns
         -------
         whole, sentence
-            The whole records of a damaged pack, which is set aside, and a sentence about it; nothing and "" of a
-            pack that is not damaged.
+            The whole records of a damaged pack, which is set aside, as far as they are this campaign's, and a
+            sentence about it; nothing and "" of a pack that is not damaged.
         """
         path = self.path(number)
         try:
             columns = self.read(number)
-        except DamagedRecordError:
-            whole = pack_format.whole_records(path)
+        except DamagedRecordError as error:
+            whole = [record for record in pack_format.whole_records(path) if self._is_ours(record)]
             lost, aside = self.SIZE - len(whole), set_aside(path)
-            return whole, (
-                f"{path} is damaged; it is set aside as {aside.name}, and {lost} of its realizations are run again."
-            )
+            return whole, f"{error} It is set aside as {aside.name}, and {lost} of its realizations are run again."
         if pack_format.is_current(path):
             self._summaries[number] = columns.summaries()
         else:
             self.write(number, columns)
         return [], ""
+
+    def _own(self, number: int, columns: Columns) -> Columns:
+        """Return a pack if it can be this campaign's; raises DamagedRecordError if not."""
+        place = f"The pack {self.path(number)}"
+        check_owner(columns.scene, self._scene, place)
+        check_sound(columns.summaries(), place)
+        if (columns.realizations // self.SIZE != number).any():
+            raise DamagedRecordError(f"{place} holds other realizations than its name says.")
+        return columns
+
+    def _is_ours(self, record: Record) -> bool:
+        return may_belong(record.scene, self._scene) and is_sound(summarize(record))

@@ -26,7 +26,7 @@ class RecordStore:
 
     def __init__(self, directory: Path, scene: str = "") -> None:
         self.loose = LooseRecords(directory, scene)
-        self.packs = Packs(directory)
+        self.packs = Packs(directory, scene)
         self.records = self.loose.directory
 
     def create(self) -> None:
