@@ -1,6 +1,7 @@
 """Files that are either wholly there or not there at all, whatever kills the process or the machine."""
 
 import os
+import re
 import socket
 from pathlib import Path
 
@@ -43,6 +44,22 @@ def set_aside(path: Path) -> Path:
 def temporary_name(path: Path) -> Path:
     """Return a hidden name beside `path` that no other process uses."""
     return path.with_name(f".{path.name}.{socket.gethostname()}.{os.getpid()}")
+
+
+def clear_temporaries(directory: Path) -> None:
+    """Remove what a killed process was writing into a directory in which no other process is at work."""
+    for name in file_names(directory):
+        if re.fullmatch(r"\..+\..+\.\d+", name):  # of `temporary_name`, on whatever host
+            (directory / name).unlink(missing_ok=True)
+
+
+def file_names(directory: Path) -> list[str]:
+    """Return what the files in a directory are called, sorted; none where there is no directory."""
+    try:
+        with os.scandir(directory) as entries:
+            return sorted(entry.name for entry in entries if entry.is_file())
+    except FileNotFoundError:
+        return []
 
 
 def _sync(path: Path) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from campaign.record import Status
 from campaign.scene import Scene
-from campaign.simulation.contract import PreparedGround, without_result
+from campaign.simulation.contract import PreparedGround, shapes, without_result
 from campaign.statistics.tally import Tally, tally_of
 from campaign.storage.attempts import Attempts
 from campaign.storage.record_store import RecordStore
@@ -30,8 +30,10 @@ class Level:
         self._tidy()
         return notes
 
-    def give_up_crashed(self, ground: PreparedGround) -> None:
-        """Write records for the realizations that took the process down too often."""
+    def fit(self, ground: PreparedGround) -> None:
+        """Set records of another ground aside, and give realizations up that took the process down too often."""
+        for sentence in self.store.check_shapes(shapes(ground)):
+            say(sentence)
         finished = self.store.finished()
         for realization, reason in self._attempts.given_up().items():
             if realization not in finished:

@@ -105,7 +105,7 @@ def conduct(
     """
     end = job_end()
     ground = prepare(directory.scene, directory.path)
-    directory.level.give_up_crashed(ground)
+    directory.level.fit(ground)
     tally = directory.level.tally()
     directory.announce(crew.size, tally)
 

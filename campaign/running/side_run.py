@@ -92,7 +92,7 @@ def make(run: SideRun, means: Means) -> Made:
 def _compute(level: Level, run: SideRun, means: Means) -> Made:
     say(run.announcement)
     ground = means.prepare(level.scene, means.home)
-    level.give_up_crashed(ground)
+    level.fit(ground)
     tally = _account(level, run)
     stopped = means.hand_out(level, ground, tally)
     return _made(tally, stopped)

@@ -11,6 +11,7 @@ from campaign.simulation.contract import Interrupted, PreparedGround, without_re
 from campaign.statistics.tally import RankReport
 from campaign.storage.attempts import Attempts
 from campaign.storage.record_store import RecordStore
+from campaign.storage.soundness import is_sound
 
 LAST_CALL = 20.0
 """Seconds before the end of the job at which a realization is abandoned, to leave time for writing the results."""
@@ -86,14 +87,20 @@ class Worker:
     def _simulate(self, realization: int) -> Record | None:
         """Return the record, or None when the realization is abandoned."""
         try:
-            return self.ground.simulate(realization, self.interrupt)
+            record = self.ground.simulate(realization, self.interrupt)
+            if is_sound(summarize(record)):
+                return record
+            return self._without_result(realization, Status.diverged, "its run-out is not a number")
         except Interrupted:
             if self.interrupt.abandons:
                 return None
             reason = f"took longer than the realization_timeout of {self.interrupt.timeout:g} s"
-            return without_result(self.ground, realization, Status.timeout, reason, self.interrupt.elapsed)
+            return self._without_result(realization, Status.timeout, reason)
         except Exception as error:
-            return without_result(self.ground, realization, Status.crashed, _reason(error), self.interrupt.elapsed)
+            return self._without_result(realization, Status.crashed, _reason(error))
+
+    def _without_result(self, realization: int, status: Status, reason: str) -> Record:
+        return without_result(self.ground, realization, status, reason, self.interrupt.elapsed)
 
 
 def _reason(error: Exception) -> str:

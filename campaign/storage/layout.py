@@ -16,9 +16,6 @@ ATTEMPTS = "attempts"
 CRASHES = "crashes"
 """Among the attempts: those that took the process down."""
 
-EVERY_ATTEMPT = "rank-*"
-"""Matches the files of `attempt_file`."""
-
 HALF_CELL = "half-cell"
 """Holds the realizations repeated with half the cell, in the same layout."""
 
@@ -61,6 +58,11 @@ def pack_of(name: str) -> int | None:
 def attempt_file(rank: int) -> str:
     """Return the name of the file in which a rank says what it has begun."""
     return f"rank-{rank:04d}"
+
+
+def is_attempt(name: str) -> bool:
+    """Whether a file of this name is one of those."""
+    return re.fullmatch(r"rank-\d{4,}", name) is not None
 
 
 def replay_file(realization: int) -> str:

@@ -53,6 +53,15 @@ def read(path: Path) -> Columns:
     RefusalError
         When only a newer version of the program can read it.
     """
+    return _read(path, None)
+
+
+def read_summarized(path: Path) -> Columns:
+    """Read and verify a pack of which only what decisions rest on is taken, a few columns; raises like `read`."""
+    return _read(path, SUMMARIZED)
+
+
+def _read(path: Path, names: Collection[str] | None) -> Columns:
     content, place = _content(path), f"The pack {path}"
     seal = seal_of(content, place)
     if seal is not None:
@@ -61,20 +70,7 @@ def read(path: Path) -> Columns:
         with h5py.File(io.BytesIO(content), "r") as file:
             if seal is None:
                 return columns_of([format_0.read_group(file[name], place) for name in file])
-            return _columns(file, list(file[VALUES]))
-    except READ_ERRORS as error:
-        raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
-
-
-def read_summarized(path: Path) -> Columns:
-    """Read what decisions rest on, a few columns; nothing is verified. Raises like `read`."""
-    place = f"The pack {path}"
-    try:
-        with path.open("rb") as file:
-            if seal_of(file.read(SIZE), place) is None:
-                return read(path)
-        with h5py.File(path, "r") as file:
-            return _columns(file, SUMMARIZED)
+            return _columns(file, list(file[VALUES]) if names is None else names)
     except READ_ERRORS as error:
         raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
 

@@ -1,10 +1,18 @@
 """Whether what a file holds can be a result of the campaign in whose directory it lies."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
 
 from campaign.errors import DamagedRecordError
+from campaign.files import set_aside
 from campaign.record import SLID, RealizationSummary
+
+Shape: TypeAlias = tuple[int, ...] | None
+"""Of an array of numbers; None for what is not numbers."""
 
 
 def check_owner(scene: str, owner: str, place: str) -> None:
@@ -42,3 +50,20 @@ def check_sound(summaries: Iterable[RealizationSummary], place: str) -> None:
     """Make sure that the run-out of each slide is a number; raises DamagedRecordError if not."""
     if strange := [summary.realization for summary in summaries if not is_sound(summary)]:
         raise DamagedRecordError(f"{place} says that realization {strange[0]} slid, and its run-out is not a number.")
+
+
+def shape_of(value: Any) -> Shape:
+    """Return the shape of numbers."""
+    array = np.asarray(value)
+    return array.shape if array.dtype.kind in "fiu" else None
+
+
+def misfit(found: Mapping[str, Shape], wanted: Mapping[str, Shape]) -> str:
+    """Return the name of a quantity that has not the shape that is wanted, "" if there is none."""
+    return next((name for name, shape in found.items() if name in wanted and shape != wanted[name]), "")
+
+
+def not_fitting(path: Path, name: str, whose: str) -> str:
+    """Set a file aside that does not fit the ground; returns the sentence about it."""
+    aside = set_aside(path)
+    return f"{path} is of another ground ({name} differs in shape). It is set aside as {aside.name}; {whose} run again."
