@@ -3,10 +3,11 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from campaign.errors import RefusalError
 from campaign.exit_codes import ExitCode
+from campaign.record import Status
 from campaign.running.beyond_sampling import BeyondSampling
 from campaign.running.level import Level
 from campaign.scene import Scene
@@ -23,8 +24,26 @@ WriteReport: TypeAlias = Callable[[Path], Path]
 """Makes the report of a results directory and returns its page."""
 
 
+class Earlier(NamedTuple):
+    """What may become of the work of earlier starts.
+
+    Attributes
+    ----------
+    allow_drift
+        Whether to continue what another version of the solver began.
+    retry
+        Realizations that ended so are run again.
+    """
+
+    allow_drift: bool = False
+    retry: frozenset[Status] = frozenset()
+
+
+ALL_STANDS = Earlier()
+
+
 @contextmanager
-def opened(scene: Scene, path: Path, ranks: int, allow_drift: bool = False) -> Iterator["CampaignDirectory"]:
+def opened(scene: Scene, path: Path, ranks: int, earlier: Earlier = ALL_STANDS) -> Iterator["CampaignDirectory"]:
     """Open a results directory for a campaign of `scene`, and give it free afterwards.
 
     Raises
@@ -32,7 +51,7 @@ def opened(scene: Scene, path: Path, ranks: int, allow_drift: bool = False) -> I
     RefusalError
         When the directory cannot be written, is in use, or belongs to something else.
     """
-    directory = CampaignDirectory(scene, path, ranks, allow_drift)
+    directory = CampaignDirectory(scene, path, ranks, earlier)
     try:
         yield directory
     finally:
@@ -42,13 +61,13 @@ def opened(scene: Scene, path: Path, ranks: int, allow_drift: bool = False) -> I
 class CampaignDirectory:
     """The directory of a scene's campaign, locked for this process."""
 
-    def __init__(self, scene: Scene, path: Path, ranks: int, allow_drift: bool) -> None:
+    def __init__(self, scene: Scene, path: Path, ranks: int, earlier: Earlier) -> None:
         self.scene = scene
         self.path = path
-        self.level = Level(scene, path)
+        self.level = Level(scene, path, earlier.retry)
         self._lock = DirectoryLock(path)
         try:
-            self._open(ranks, allow_drift)
+            self._open(ranks, earlier.allow_drift)
         except OSError as error:
             raise RefusalError(f"{path} cannot be written ({error}); give another --out, or make room.") from error
 

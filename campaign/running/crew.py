@@ -5,8 +5,9 @@ from pathlib import Path
 from typing import NamedTuple, Protocol
 
 from campaign.running.dispatcher import Dispatcher
+from campaign.running.interrupt import Interrupt
 from campaign.running.stop_request import StopRequest
-from campaign.running.worker import Interrupt, Worker
+from campaign.running.worker import Worker
 from campaign.simulation.contract import PreparedGround
 from campaign.statistics.tally import RankReport
 from campaign.storage.attempts import Attempts
@@ -51,6 +52,7 @@ class Alone:
     def compute(self, order: Order, dispatcher: Dispatcher, aside: Callable[[], None]) -> None:
         """Compute one realization after another."""
         worker = worker_of(order, 0, self._stop, aside)
+        worker.rehearse()
         work(worker, dispatcher.exchange(RankReport(None)), dispatcher.exchange_here)
         aside()
 

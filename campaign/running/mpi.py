@@ -10,9 +10,7 @@ import os
 import sys
 import threading
 import time
-import traceback
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 
 from mpi4py import MPI
@@ -20,14 +18,18 @@ from mpi4py import MPI
 from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
 from campaign.running import launcher
-from campaign.running.campaign_directory import WriteReport, opened
+from campaign.running.campaign_directory import ALL_STANDS, Earlier, WriteReport, opened
 from campaign.running.crew import Order, work, worker_of
 from campaign.running.dispatcher import Dispatcher
+from campaign.running.guard import ending_all_ranks
 from campaign.running.runner import conduct
 from campaign.running.stop_request import StopRequest, listening
+from campaign.running.watch import Watch
+from campaign.running.worker import Worker
 from campaign.scene import Scene
 from campaign.simulation.contract import Prepare
 from campaign.statistics.tally import RankReport
+from campaign.storage.attempts import Attempts
 
 REPORT, ANSWER = 1, 2
 
@@ -40,7 +42,7 @@ def run_on_ranks(
     out: Path | None,
     prepare: Prepare,
     write_report: WriteReport | None = None,
-    allow_drift: bool = False,
+    earlier: Earlier = ALL_STANDS,
 ) -> ExitCode:
     """Run a campaign on all ranks of this MPI job, or continue it.
 
@@ -54,17 +56,16 @@ def run_on_ranks(
         Computes what realizations share; called on rank 0.
     write_report
         Makes the report when the results are written.
-    allow_drift
-        Whether to continue what another version of the solver began.
+    earlier
+        What may become of the work of earlier starts.
     """
-    comm = MPI.COMM_WORLD
-    with _ending_all_ranks(comm), listening() as stop:
+    with ending_all_ranks() as comm, listening() as stop:
         if sentence := launcher.mismatch(comm.size, os.environ):
             print(sentence, file=sys.stderr, flush=True)
             return ExitCode.REFUSED
         if comm.rank > 0:
             return _follow(comm, stop)
-        code = _lead(Ranks(comm, stop), stop, read_scene, out, prepare, write_report, allow_drift)
+        code = _lead(Ranks(comm, stop), stop, read_scene, out, prepare, write_report, earlier)
         _share(comm, None)
         return _agree(comm, code)
 
@@ -76,11 +77,11 @@ def _lead(
     out: Path | None,
     prepare: Prepare,
     write_report: WriteReport | None,
-    allow_drift: bool,
+    earlier: Earlier,
 ) -> ExitCode:
     try:
         scene = read_scene()
-        with opened(scene, out or Path(f"campaign-{scene.name}"), ranks.size, allow_drift) as directory:
+        with opened(scene, out or Path(f"campaign-{scene.name}"), ranks.size, earlier) as directory:
             return conduct(directory, prepare, ranks, stop, write_report)
     except CampaignError as refusal:
         print(refusal, file=sys.stderr, flush=True)
@@ -90,6 +91,7 @@ def _lead(
 def _follow(comm: MPI.Comm, stop: StopRequest) -> ExitCode:
     while (order := _share(comm, None)) is not None:
         worker = worker_of(order, comm.rank, stop, lambda: None)
+        _rehearse(comm, worker)
         work(worker, comm.scatter(None), lambda report: _ask(comm, report))
     return _agree(comm, None)
 
@@ -109,11 +111,23 @@ class Ranks:
     def compute(self, order: Order, dispatcher: Dispatcher, aside: Callable[[], None]) -> None:
         """Hand out realizations to all ranks, this one included, until there are no more."""
         _share(self._comm, order)
-        first = [dispatcher.exchange(RankReport(None)) for _ in range(self.size)]
-        service = Service(self._comm, first, dispatcher.exchange, aside)
+        watch = Watch(order.timeout, Attempts(order.directory).note)
+        service = Service(self._comm, dispatcher, watch, aside)
         worker = worker_of(order, 0, self._stop, service.poll)
-        work(worker, self._comm.scatter(first), dispatcher.exchange_here)
+        _rehearse(self._comm, worker)
+        work(worker, self._comm.scatter(service.begin()), service.exchange_here)
         service.finish()
+
+
+def _rehearse(comm: MPI.Comm, worker: Worker) -> None:
+    """Let one rank of each node compile while the others wait, which then find its code."""
+    node = comm.Split_type(MPI.COMM_TYPE_SHARED)
+    if node.rank == 0:
+        worker.rehearse()
+    _gather_round(node)
+    if node.rank > 0:
+        worker.rehearse()
+    node.Free()
 
 
 def _ask(comm: MPI.Comm, report: RankReport) -> int | None:
@@ -129,10 +143,10 @@ class Service:
 
     Parameters
     ----------
-    first
-        The first realization of each rank; one that got None will not ask for more.
-    exchange
+    dispatcher
         Turns a report into the next realization.
+    watch
+        Notices who does not come back.
     aside
         Called again and again.
     """
@@ -140,19 +154,34 @@ class Service:
     def __init__(
         self,
         comm: MPI.Comm,
-        first: list[int | None],
-        exchange: Callable[[RankReport], int | None],
+        dispatcher: Dispatcher,
+        watch: Watch,
         aside: Callable[[], None],
     ) -> None:
         self._comm = comm
-        self._exchange = exchange
+        self._dispatcher = dispatcher
+        self._watch = watch
         self._aside = aside
-        self._busy = sum(realization is not None for realization in first[1:])
+        self._busy = 0
         self._closing = threading.Event()
         self._thread: threading.Thread | None = None
+
+    def begin(self) -> list[int | None]:
+        """Return the first realization of each rank, and answer those who got one from now on."""
+        first = [self._dispatcher.exchange(RankReport(None)) for _ in range(self._comm.size)]
+        for rank, realization in enumerate(first):
+            self._watch.begins(rank, realization)
+        self._busy = sum(realization is not None for realization in first[1:])
         if MPI.Query_thread() == MPI.THREAD_MULTIPLE:
             self._thread = threading.Thread(target=self._serve_on, name="service", daemon=True)
             self._thread.start()
+        return first
+
+    def exchange_here(self, report: RankReport) -> int | None:
+        """Take rank 0's own report and return its next realization."""
+        realization = self._dispatcher.exchange_here(report)
+        self._watch.begins(0, realization)
+        return realization
 
     def poll(self) -> None:
         """Answer who is waiting, unless a thread does; called from rank 0's time loop."""
@@ -176,9 +205,11 @@ class Service:
         status = MPI.Status()
         while self._comm.iprobe(source=MPI.ANY_SOURCE, tag=REPORT, status=status):
             source = status.Get_source()
-            realization = self._exchange(self._comm.recv(source=source, tag=REPORT))
+            realization = self._dispatcher.exchange(self._comm.recv(source=source, tag=REPORT))
+            self._watch.begins(source, realization)
             self._busy -= realization is None
             self._comm.send(realization, dest=source, tag=ANSWER)
+        self._watch.look()
         self._aside()
 
 
@@ -201,25 +232,3 @@ def _gather_round(comm: MPI.Comm) -> None:
     request = comm.Ibarrier()
     while not request.Test():
         time.sleep(5 * PAUSE)
-
-
-@contextmanager
-def _ending_all_ranks(comm: MPI.Comm) -> Iterator[None]:
-    """End all ranks when one ends in an exception, which would otherwise wait in MPI_Finalize for ever.
-
-    Any exception counts, `SystemExit` and `KeyboardInterrupt` included, and so does one in a thread.
-    """
-
-    def abort(error: BaseException | None) -> None:
-        traceback.print_exception(error)
-        sys.stderr.flush()
-        comm.Abort(ExitCode.INTERNAL_ERROR)
-
-    in_threads, threading.excepthook = threading.excepthook, lambda raised: abort(raised.exc_value)
-    try:
-        yield
-    except BaseException as error:
-        abort(error)
-        raise
-    finally:
-        threading.excepthook = in_threads

@@ -14,12 +14,12 @@ from campaign.running.beyond_sampling import BeyondSampling, beyond_sampling
 from campaign.running.campaign_directory import CampaignDirectory, WriteReport, opened
 from campaign.running.crew import Alone, Crew, Order
 from campaign.running.dispatcher import Dispatcher
+from campaign.running.interrupt import LAST_CALL
 from campaign.running.level import Level
 from campaign.running.progress import Progress, nothing_ahead
 from campaign.running.side_run import Means
 from campaign.running.stop_request import StopRequest, listening
 from campaign.running.walltime import job_end
-from campaign.running.worker import LAST_CALL
 from campaign.running.workload import seconds_beyond_sampling
 from campaign.scene import Scene, load_scene
 from campaign.simulation.contract import Prepare, PreparedGround
@@ -121,7 +121,8 @@ def conduct(
     stopped = hand_out(directory.level, ground, tally)
     beyond = BeyondSampling(stopped)
     if tally.size is not None:
-        beyond = beyond_sampling(directory.scene, tally, Means(directory.path, prepare, hand_out, stopped))
+        means = Means(directory.path, prepare, hand_out, stopped, directory.level.retry)
+        beyond = beyond_sampling(directory.scene, tally, means)
     return directory.conclude(ground, tally, beyond, write_report)
 
 

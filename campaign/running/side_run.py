@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from campaign.errors import RefusalError
-from campaign.record import RealizationSummary
+from campaign.record import RealizationSummary, Status
 from campaign.running.level import Level
 from campaign.scene import Scene
 from campaign.simulation.contract import Prepare, PreparedGround
@@ -29,12 +29,15 @@ class Means(NamedTuple):
         Has all ranks compute realizations.
     stopped
         Why nothing new may be begun, "" if it may.
+    retry
+        Realizations that ended so in an earlier start are run again.
     """
 
     home: Path
     prepare: Prepare
     hand_out: HandOut
     stopped: str
+    retry: frozenset[Status] = frozenset()
 
     def after(self, stopped: str) -> "Means":
         """Return the means that are left when something had to stop for this reason, "" if it had not."""
@@ -75,7 +78,7 @@ class Made(NamedTuple):
 def make(run: SideRun, means: Means) -> Made:
     """Make the runs that earlier starts have not made."""
     try:
-        level = Level(run.scene(), run.directory)
+        level = Level(run.scene(), run.directory, means.retry)
         for note in level.open():
             say(note)
         tally = _account(level, run)

@@ -1,78 +1,52 @@
 """What every rank does with an id: simulate it alone, keep its record, say how it went."""
 
-import time
 import traceback
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from campaign.record import Record, Status, summarize
-from campaign.running.stop_request import StopRequest
+from campaign.running.interrupt import Interrupt
+from campaign.running.machine_fault import MachineFaultError, is_machine_fault
+from campaign.seeds import BASELINE
 from campaign.simulation.contract import Interrupted, PreparedGround, without_result
-from campaign.statistics.tally import RankReport
+from campaign.statistics.tally import Fault, RankReport
 from campaign.storage.attempts import Attempts
+from campaign.storage.provenance import machine
 from campaign.storage.record_store import RecordStore
 from campaign.storage.soundness import is_sound
+from campaign.terminal import say
 
-LAST_CALL = 20.0
-"""Seconds before the end of the job at which a realization is abandoned, to leave time for writing the results."""
+PATIENCE = 2
+"""Faults of the machine in a row after which a rank takes no more work."""
 
 
 @dataclass
-class Interrupt:
-    """The reasons to leave a realization unfinished; asked by the time loop a few times a second.
-
-    Parameters
-    ----------
-    stop
-        Signals received.
-    job_end
-        Seconds since the epoch.
-    timeout
-        Wall-clock time that a realization may take [s].
-    poll
-        Called each time, for what has to be done in between.
-    """
-
-    stop: StopRequest
-    job_end: float
-    timeout: float
-    poll: Callable[[], None]
-    begin: float = 0.0
-
-    def restart(self) -> None:
-        """Start the clock of a new realization."""
-        self.begin = time.monotonic()
-
-    @property
-    def elapsed(self) -> float:
-        """Wall-clock time since the start of the realization [s]."""
-        return time.monotonic() - self.begin
-
-    @property
-    def abandons(self) -> str:
-        """Why the realization is to be left and begun again another day, "" if it is not."""
-        if self.stop.now:
-            return "asked to stop"
-        return "the job's time is nearly over" if time.time() > self.job_end - LAST_CALL else ""
-
-    def __call__(self) -> bool:
-        """Whether to leave the realization."""
-        self.poll()
-        return bool(self.abandons) or self.elapsed > self.timeout
-
-
-@dataclass(frozen=True)
 class Worker:
-    """Turns ids into records; what goes wrong in a realization is a status in the data."""
+    """Turns ids into records; what goes wrong in a realization by itself is a status in the data."""
 
     ground: PreparedGround
     store: RecordStore
     attempts: Attempts
     rank: int
     interrupt: Interrupt
+    _faults: int = 0  # of the machine, in a row
+    _unfit: str = ""
+
+    def rehearse(self) -> None:
+        """Compile what a realization needs, and run the start of one to see whether this machine can."""
+        self.interrupt.restart()
+        asked = iter([False])
+        try:
+            self.ground.simulate(BASELINE, lambda: self.interrupt() or next(asked, True))
+        except Interrupted:
+            return
+        except Exception as error:
+            if is_machine_fault(error):  # what the scene causes is a status, in its turn
+                self._unfit, self._faults = f"it fails before its first realization: {_reason(error)}", PATIENCE
 
     def run(self, realization: int) -> RankReport:
         """Simulate one realization and keep its record."""
+        if self._unfit:
+            return self._fault(realization, self._unfit)
         self.interrupt.restart()
         try:
             with self.attempts.of(self.rank, realization):
@@ -80,9 +54,20 @@ class Worker:
             if record is None:
                 return RankReport(None, self.interrupt.abandons)
             self.store.write(record)
+        except MachineFaultError as error:
+            return self._fault(realization, str(error))
         except OSError as error:
             return RankReport(None, f"realization {realization} cannot be kept in {self.store.records} ({error})")
+        self._faults = 0
         return RankReport(summarize(record), "asked to stop" if self.interrupt.stop.drain else "")
+
+    def _fault(self, realization: int, reason: str) -> RankReport:
+        self._faults += 1
+        who = f"rank {self.rank} on {machine()['host']}"
+        retires = self._faults >= PATIENCE
+        if retires:
+            say(f"No more work for {who}: {reason}.")
+        return RankReport(None, "", Fault(realization, f"{who}: {reason}", retires))
 
     def _simulate(self, realization: int) -> Record | None:
         """Return the record, or None when the realization is abandoned."""
@@ -97,6 +82,8 @@ class Worker:
             reason = f"took longer than the realization_timeout of {self.interrupt.timeout:g} s"
             return self._without_result(realization, Status.timeout, reason)
         except Exception as error:
+            if is_machine_fault(error):
+                raise MachineFaultError(f"realization {realization} ended in {_reason(error)}") from error
             return self._without_result(realization, Status.crashed, _reason(error))
 
     def _without_result(self, realization: int, status: Status, reason: str) -> Record:

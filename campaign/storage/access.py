@@ -28,6 +28,7 @@ OWN = {LOCK, RECORDS, PACKS, ATTEMPTS, HALF_CELL, OTHER_RELEASE, CHANGED_INPUTS}
 
 FRONT_BEFORE_THERE_WAS_A_KEY = "tip"
 
+
 class Access(Enum):
     """What may be done with a directory."""
 

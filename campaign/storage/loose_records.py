@@ -74,7 +74,7 @@ class LooseRecords:
     def remove(self, realization: int) -> None:
         """Remove a record that is kept elsewhere."""
         self.path(realization).unlink()
-        self._forget(realization)
+        self.forget(realization)
 
     def check(self, realization: int) -> str:
         """Set a damaged record aside so that its id is run again; returns a sentence when it was, else ""."""
@@ -91,10 +91,11 @@ class LooseRecords:
         name = misfit({name: shape_of(value) for name, value in values.items()}, wanted)
         if not name:
             return ""
-        self._forget(realization)
+        self.forget(realization)
         return not_fitting(self.path(realization), name, f"realization {realization} is")
 
-    def _forget(self, realization: int) -> None:
+    def forget(self, realization: int) -> None:
+        """Read the file of a record again when it is asked for: another rank will write it."""
         self._verified.pop(realization, None)
         self._summaries.pop(realization, None)
 

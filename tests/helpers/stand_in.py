@@ -3,6 +3,7 @@
 Run under mpirun as a campaign: `python stand_in.py DIR REALIZATIONS`, with STAND_IN_* variables for faults.
 """
 
+import errno
 import os
 import resource
 import signal
@@ -62,6 +63,12 @@ def prepare(scene: Scene, _directory: Path) -> StandIn:
 
 
 def misbehave(realization: int) -> None:
+    if os.environ.get("PMI_RANK") == os.environ.get("STAND_IN_SICK", "none"):
+        raise OSError(errno.ENOSPC, "No space left on device")
+    if str(realization) == os.environ.get("STAND_IN_MEMORY"):
+        raise MemoryError("64 GiB are wanted")
+    if str(realization) == os.environ.get("STAND_IN_HANG"):
+        time.sleep(1000)
     if str(realization) == os.environ.get("STAND_IN_RAISE"):
         raise ZeroDivisionError("a particle has no mass")
     if str(realization) == os.environ.get("STAND_IN_CRASH"):
@@ -87,9 +94,14 @@ def record(scene: Scene, realization: int) -> Record:
 
 
 if __name__ == "__main__":
+    from campaign.record import Status
+    from campaign.running import watch
+    from campaign.running.campaign_directory import Earlier
     from campaign.running.mpi import run_on_ranks
 
+    watch.GRACE = float(os.environ.get("STAND_IN_GRACE", "300"))
+    retry = frozenset(Status[name] for name in os.environ.get("STAND_IN_RETRY", "").split())
     directory, count, *overrides = sys.argv[1:]
     alone = ["campaign.discretisation_pairs=0", "campaign.sensitivity_pairs=0"]
     wanted = [f"campaign.realizations={count}", *alone, *overrides]
-    sys.exit(run_on_ranks(lambda: load_scene("ma2023", wanted), Path(directory), prepare))
+    sys.exit(run_on_ranks(lambda: load_scene("ma2023", wanted), Path(directory), prepare, None, Earlier(False, retry)))
