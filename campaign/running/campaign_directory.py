@@ -93,6 +93,13 @@ class CampaignDirectory:
         """Give the directory free."""
         self._lock.release()
 
+    def leave(self) -> ExitCode:
+        """Say and write down that the campaign was asked to stop before its first realization; return its exit code."""
+        verdict = "stopped early (asked to stop) before its first realization of this start"
+        say(f"{self.scene.title}: {verdict}. Give the same command again to continue.")
+        manifest.end(self.path, ExitCode.RESUMABLE, verdict)
+        return ExitCode.RESUMABLE
+
     def conclude(
         self,
         ground: PreparedGround,

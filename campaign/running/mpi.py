@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 
 from mpi4py import MPI
@@ -23,13 +24,14 @@ from campaign.running.crew import Order, work, worker_of
 from campaign.running.dispatcher import Dispatcher
 from campaign.running.guard import ending_all_ranks
 from campaign.running.runner import conduct
-from campaign.running.stop_request import StopRequest, listening
+from campaign.running.stop_request import StoppedError, StopRequest, listening
 from campaign.running.watch import Watch
 from campaign.running.worker import Worker
 from campaign.scene import Scene
 from campaign.simulation.contract import Prepare
 from campaign.statistics.tally import RankReport
 from campaign.storage.attempts import Attempts
+from campaign.terminal import say
 
 REPORT, ANSWER = 1, 2
 
@@ -80,9 +82,15 @@ def _lead(
     earlier: Earlier,
 ) -> ExitCode:
     try:
-        scene = read_scene()
-        with opened(scene, out or Path(f"campaign-{scene.name}"), ranks.size, earlier) as directory:
-            return conduct(directory, prepare, ranks, stop, write_report)
+        with ExitStack() as stack:
+            with stop.leaving_at_once():
+                scene = read_scene()
+                directory = opened(scene, out or Path(f"campaign-{scene.name}"), ranks.size, earlier)
+                begun = stack.enter_context(directory)
+            return conduct(begun, prepare, ranks, stop, write_report)
+    except StoppedError:
+        say("Asked to stop before anything was begun. Give the same command again to continue.")
+        return ExitCode.RESUMABLE
     except CampaignError as refusal:
         print(refusal, file=sys.stderr, flush=True)
         return ExitCode.REFUSED

@@ -18,7 +18,7 @@ from campaign.running.interrupt import LAST_CALL
 from campaign.running.level import Level
 from campaign.running.progress import Progress, nothing_ahead
 from campaign.running.side_run import Means
-from campaign.running.stop_request import StopRequest, listening
+from campaign.running.stop_request import StoppedError, StopRequest, listening
 from campaign.running.walltime import job_end
 from campaign.running.workload import seconds_beyond_sampling
 from campaign.scene import Scene, load_scene
@@ -103,8 +103,16 @@ def conduct(
     CampaignError
         If the scene cannot be run.
     """
+
+    def prepare_unless_stopped(scene: Scene, path: Path) -> PreparedGround:
+        with stop.leaving_at_once():
+            return prepare(scene, path)
+
     end = job_end()
-    ground = prepare(directory.scene, directory.path)
+    try:
+        ground = prepare_unless_stopped(directory.scene, directory.path)
+    except StoppedError:
+        return directory.leave()
     directory.level.fit(ground)
     tally = directory.level.tally()
     directory.announce(crew.size, tally)
@@ -121,7 +129,7 @@ def conduct(
     stopped = hand_out(directory.level, ground, tally)
     beyond = BeyondSampling(stopped)
     if tally.size is not None:
-        means = Means(directory.path, prepare, hand_out, stopped, directory.level.retry)
+        means = Means(directory.path, prepare_unless_stopped, hand_out, stopped, directory.level.retry)
         beyond = beyond_sampling(directory.scene, tally, means)
     return directory.conclude(ground, tally, beyond, write_report)
 

@@ -10,24 +10,42 @@ ECHO = 1.0
 """Seconds within which a repeated interrupt is one key press that came by the process group and by the launcher."""
 
 
+class StoppedError(BaseException):
+    """Asked to stop, and nothing is lost by it."""
+
+
 class StopRequest:
     """Whether somebody asked for an end.
 
-    `drain` is set by the first USR1, TERM or INT: start nothing new, finish what is under way. `now` is set by a second
-    INT: abandon it.
+    `drain` is set by the first USR1, TERM or INT: start nothing new, finish what is under way. `now` is set by TERM,
+    after which SLURM waits half a minute, and by a second INT: abandon it.
     """
 
     def __init__(self) -> None:
         self.drain = False
         self.now = False
         self._first = 0.0
+        self._leaves_at_once = False
 
     def receive(self, number: int, _frame: FrameType | None = None) -> None:
-        """Handle a signal; does nothing but set flags, since it may interrupt anything."""
+        """Handle a signal: set flags, since it may interrupt anything, and leave what may be left."""
         repeated = self.drain and time.monotonic() - self._first > ECHO
-        self.now = self.now or (repeated and number == signal.SIGINT)
+        self.now = self.now or number == signal.SIGTERM or (repeated and number == signal.SIGINT)
         if not self.drain:
             self.drain, self._first = True, time.monotonic()
+        if self._leaves_at_once:
+            raise StoppedError
+
+    @contextmanager
+    def leaving_at_once(self) -> Iterator[None]:
+        """Let a signal, also one that came before, end the context in `StoppedError`: it can be done again."""
+        self._leaves_at_once = True
+        try:
+            if self.drain:
+                raise StoppedError
+            yield
+        finally:
+            self._leaves_at_once = False
 
 
 @contextmanager

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from campaign.record import Record, Status, summarize
 from campaign.running.interrupt import Interrupt
 from campaign.running.machine_fault import MachineFaultError, is_machine_fault
+from campaign.running.stop_request import StoppedError
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import Interrupted, PreparedGround, without_result
 from campaign.statistics.tally import Fault, RankReport
@@ -36,8 +37,9 @@ class Worker:
         self.interrupt.restart()
         asked = iter([False])
         try:
-            self.ground.simulate(BASELINE, lambda: self.interrupt() or next(asked, True))
-        except Interrupted:
+            with self.interrupt.stop.leaving_at_once():
+                self.ground.simulate(BASELINE, lambda: self.interrupt() or next(asked, True))
+        except (Interrupted, StoppedError):
             return
         except Exception as error:
             if is_machine_fault(error):  # what the scene causes is a status, in its turn

@@ -59,6 +59,7 @@ class StandIn:
 def prepare(scene: Scene, _directory: Path) -> StandIn:
     if "STAND_IN_RAISE_IN_PREPARE" in os.environ:
         raise RuntimeError("the runner itself is broken")
+    time.sleep(float(os.environ.get("STAND_IN_PREPARE_SECONDS", "0")))
     return StandIn(scene)
 
 
@@ -67,6 +68,8 @@ def misbehave(realization: int) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
     if str(realization) == os.environ.get("STAND_IN_MEMORY"):
         raise MemoryError("64 GiB are wanted")
+    if str(realization) == os.environ.get("STAND_IN_VANISH"):
+        os._exit(0)
     if str(realization) == os.environ.get("STAND_IN_HANG"):
         time.sleep(1000)
     if str(realization) == os.environ.get("STAND_IN_RAISE"):

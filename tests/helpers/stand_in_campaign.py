@@ -49,23 +49,22 @@ def assert_same(one, other):
             np.testing.assert_array_equal(one[name].values, other[name].values, err_msg=name, strict=True)
 
 
-def wait_for_records(directory, count):
+def wait_for(condition, otherwise):
     deadline = time.monotonic() + 30
-    while len(list(directory.glob("records/realization-*.h5"))) < count:
-        assert time.monotonic() < deadline, "no records appear"
+    while not condition():
+        assert time.monotonic() < deadline, otherwise
         time.sleep(0.02)
+
+
+def wait_for_records(directory, count):
+    wait_for(lambda: len(list(directory.glob("records/realization-*.h5"))) >= count, "no records appear")
 
 
 def wait_for_the_end(directory):
     """Ranks outlive a killed mpirun by a moment."""
-    deadline = time.monotonic() + 30
-    while DirectoryLock(directory).is_held():
-        assert time.monotonic() < deadline, "rank 0 lives on"
-        time.sleep(0.02)
+    wait_for(lambda: not DirectoryLock(directory).is_held(), "rank 0 lives on")
 
 
 def wait_for_attempts(directory):
-    deadline = time.monotonic() + 30
-    while not any(path.read_text() for path in directory.glob("attempts/rank-*")):
-        assert time.monotonic() < deadline, "no realization is begun"
-        time.sleep(0.02)
+    attempts = directory / "attempts"
+    wait_for(lambda: any(path.read_text() for path in attempts.glob("rank-*")), "no realization is begun")

@@ -4,12 +4,17 @@ Campaigns run under the environment's own mpirun, with a stand-in for the solver
 """
 
 import os
+import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
-from stand_in_campaign import MPIRUN, assert_same, campaign, dataset, dataset_of
+from stand_in_campaign import MPIRUN, assert_same, campaign, dataset, dataset_of, start, wait_for
+
+from campaign.exit_codes import ExitCode
+from campaign.running.standing import conclusion, status
 
 pytestmark = pytest.mark.skipif(not MPIRUN.exists(), reason="needs the mpich extra")
 
@@ -73,6 +78,29 @@ def test_a_realization_that_hangs_is_ended_and_skipped_after_the_second_time(tmp
     assert code == 0, output
     assert "Realization 3 is recorded as crashed" in output
     assert "no answer within 1 s" in str(dataset(directory).reason[3].values)
+
+
+@pytest.mark.parametrize("number", [signal.SIGUSR1, signal.SIGTERM])
+def test_a_signal_ends_the_preparation_at_once(tmp_path, number):
+    directory = tmp_path / "out"
+    process = start(directory, 4, 2, prepare_seconds=50)
+    wait_for(lambda: (directory / "manifest.json").exists(), "nothing is begun")
+    begin = time.monotonic()
+    os.kill(process.pid, number)
+    output, _ = process.communicate(timeout=40)
+    assert process.returncode == 75, output
+    assert time.monotonic() - begin < 20
+    assert "before its first realization" in output
+    assert "stopped early (asked to stop)" in status(directory)
+    assert conclusion(directory) is ExitCode.RESUMABLE
+
+
+def test_a_rank_that_vanishes_is_not_a_success_whatever_the_launcher_says(tmp_path):
+    """Under MPICH the exit code of the launcher is 0 then."""
+    directory = tmp_path / "out"
+    campaign(directory, ranks=2, seconds=0.02, vanish=9)
+    assert conclusion(directory) is ExitCode.RESUMABLE
+    assert campaign(directory)[0] == conclusion(directory) == ExitCode.DONE
 
 
 BREAKING = """
