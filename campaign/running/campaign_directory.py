@@ -83,6 +83,10 @@ class CampaignDirectory:
         for note in filter(None, notes):
             say(note)
 
+    def obstacle(self) -> str:
+        """Return why nothing more may be written here, "" if it may."""
+        return "" if self._lock.is_ours() else f"{self.path} was moved away, or another campaign has taken it over"
+
     def announce(self, ranks: int, tally: Tally) -> None:
         """Say what is about to be done."""
         earlier = f"; {tally.done} are finished already" if tally.done else ""
@@ -120,6 +124,9 @@ class CampaignDirectory:
         """
         code, verdict = _end(tally, beyond.stopped)
         say(f"\n{self.scene.title}: {verdict}")
+        if lost := self.obstacle():
+            say(f"{lost}. Its records are kept: give the same command again where it is.")
+            return ExitCode.RESUMABLE
         try:
             if tally.prefix > 0:
                 say(self._write_results(ground, tally, verdict, beyond))

@@ -109,6 +109,7 @@ def conduct(
             return prepare(scene, path)
 
     end = job_end()
+    obstacle = _obstacle(stop, end, directory.obstacle)
     try:
         ground = prepare_unless_stopped(directory.scene, directory.path)
     except StoppedError:
@@ -120,7 +121,7 @@ def conduct(
     def hand_out(level: Level, ground: PreparedGround, tally: Tally) -> str:
         wanted = level.scene
         order = Order(ground, level.directory, wanted.digest(), wanted.campaign.realization_timeout, end)
-        dispatcher = Dispatcher(tally, _obstacle(stop, end), level.tidier(tally))
+        dispatcher = Dispatcher(tally, obstacle, level.tidier(tally))
         ahead = partial(seconds_beyond_sampling, wanted, crew.size) if level is directory.level else nothing_ahead
         progress = Progress(tally, ahead)
         crew.compute(order, dispatcher, lambda: dispatcher.observe(progress.tick))
@@ -134,10 +135,10 @@ def conduct(
     return directory.conclude(ground, tally, beyond, write_report)
 
 
-def _obstacle(stop: StopRequest, end: float) -> Callable[[float], str]:
+def _obstacle(stop: StopRequest, end: float, lost: Callable[[], str]) -> Callable[[float], str]:
     def obstacle(longest: float) -> str:
         if stop.drain:
             return "asked to stop"
-        return "the job's time is nearly over" if time.time() + longest + LAST_CALL > end else ""
+        return lost() or ("the job's time is nearly over" if time.time() + longest + LAST_CALL > end else "")
 
     return obstacle

@@ -11,7 +11,7 @@ import time
 
 import numpy as np
 import pytest
-from stand_in_campaign import MPIRUN, assert_same, campaign, dataset, dataset_of, start, wait_for
+from stand_in_campaign import MPIRUN, assert_same, campaign, dataset, dataset_of, start, wait_for, wait_for_records
 
 from campaign.exit_codes import ExitCode
 from campaign.running.standing import conclusion, status
@@ -101,6 +101,18 @@ def test_a_rank_that_vanishes_is_not_a_success_whatever_the_launcher_says(tmp_pa
     campaign(directory, ranks=2, seconds=0.02, vanish=9)
     assert conclusion(directory) is ExitCode.RESUMABLE
     assert campaign(directory)[0] == conclusion(directory) == ExitCode.DONE
+
+
+def test_a_directory_that_is_moved_away_can_go_on_where_it_is(alone, tmp_path):
+    process = start(tmp_path / "out", ranks=2, seconds=0.05)
+    wait_for_records(tmp_path / "out", 6)
+    (tmp_path / "out").rename(tmp_path / "moved")
+    output, _ = process.communicate(timeout=40)
+    assert process.returncode == 75, output
+    assert "was moved away" in output
+    assert "Traceback" not in output
+    assert not (tmp_path / "out").exists()
+    assert_same(dataset_of(tmp_path / "moved"), alone)
 
 
 BREAKING = """
