@@ -32,6 +32,7 @@ COMMANDS = ("run", "new", "validate", "draw", "status", "report", "replay", "com
 def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out one command and return its exit code; without arguments that is `run ma2023`."""
     _pin_threads()
+    os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")  # files appear whole; not every file system has locks
     given = sys.argv[1:] if arguments is None else list(arguments)
     try:
         return _carry_out(parser().parse_args(given or DEFAULT))

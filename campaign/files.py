@@ -47,10 +47,15 @@ def temporary_name(path: Path) -> Path:
 
 
 def clear_temporaries(directory: Path) -> None:
-    """Remove what a killed process was writing into a directory in which no other process is at work."""
+    """Remove what a killed process was writing into a directory, on this host or another one."""
     for name in file_names(directory):
-        if re.fullmatch(r"\..+\..+\.\d+", name):  # of `temporary_name`, on whatever host
+        written = re.fullmatch(r"\..+\..+\.(\d+)", name)  # by `temporary_name`
+        if written and not _is_being_written(name, written[1]):
             (directory / name).unlink(missing_ok=True)
+
+
+def _is_being_written(name: str, pid: str) -> bool:
+    return name.endswith(f".{socket.gethostname()}.{pid}") and Path("/proc", pid).exists()
 
 
 def file_names(directory: Path) -> list[str]:

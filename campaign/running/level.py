@@ -4,6 +4,7 @@ import contextlib
 from collections.abc import Callable
 from pathlib import Path
 
+from campaign.files import clear_temporaries
 from campaign.record import RealizationSummary, Status
 from campaign.scene import Scene
 from campaign.simulation.contract import PreparedGround, shapes, without_result
@@ -27,6 +28,8 @@ class Level:
         """Make ready for work, clearing up after a kill; returns sentences worth a look."""
         self.store.create()
         self._attempts.create()
+        for place in (self.directory, self._attempts.directory):
+            clear_temporaries(place)
         notes = self.store.recover()
         self._tidy()
         return notes

@@ -106,7 +106,7 @@ def test_clocks_that_differ_take_no_lock_from_a_living_holder(tmp_path, ahead):
     (tmp_path / "lock").write_text(holder(**ELSEWHERE))
     with (
         beating(tmp_path / "lock", time.time() - ahead),
-        pytest.raises(RefusalError, match=r"process \d+ on elsewhere"),
+        pytest.raises(RefusalError, match="on elsewhere"),
     ):
         DirectoryLock(tmp_path).acquire()
 

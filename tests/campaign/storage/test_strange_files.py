@@ -2,6 +2,8 @@
 
 import contextlib
 import json
+import os
+import socket
 import subprocess
 
 import numpy as np
@@ -175,3 +177,13 @@ def test_a_pack_on_which_the_library_does_not_end_is_given_up(level, tmp_path, m
     (sentence,) = level.open()
     assert "4 of its realizations are run again" in sentence
     assert level.tally().done == 2
+
+
+def test_what_a_killed_process_was_writing_is_cleared_and_nothing_else(level, tmp_path):
+    rooms = (tmp_path, tmp_path / "records", tmp_path / "packs", tmp_path / "attempts")
+    killed = [room / name for room in rooms for name in (".results.nc.a.host.with.dots.99", ".x.h5.elsewhere.1")]
+    at_work = [room / f".report.html.{socket.gethostname()}.{os.getpid()}" for room in rooms]
+    for path in killed + at_work:
+        path.touch()
+    assert level.open() == []
+    assert [path.exists() for path in killed + at_work] == [False] * 8 + [True] * 4
