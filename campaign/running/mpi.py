@@ -7,7 +7,6 @@ which would burn a core and hold back signals.
 """
 
 import os
-import sys
 import threading
 import time
 from collections.abc import Callable
@@ -24,14 +23,14 @@ from campaign.running.crew import Order, work, worker_of
 from campaign.running.dispatcher import Dispatcher
 from campaign.running.guard import ending_all_ranks
 from campaign.running.runner import conduct
-from campaign.running.stop_request import StoppedError, StopRequest, listening
+from campaign.running.stop_request import BrokenOff, StopRequest, listening
 from campaign.running.watch import Watch
 from campaign.running.worker import Worker
 from campaign.scene import Scene
 from campaign.simulation.contract import Prepare
 from campaign.statistics.tally import RankReport
 from campaign.storage.attempts import Attempts
-from campaign.terminal import say
+from campaign.terminal import complain, say
 
 REPORT, ANSWER = 1, 2
 
@@ -63,7 +62,7 @@ def run_on_ranks(
     """
     with ending_all_ranks() as comm, listening() as stop:
         if sentence := launcher.mismatch(comm.size, os.environ):
-            print(sentence, file=sys.stderr, flush=True)
+            complain(sentence)
             return ExitCode.REFUSED
         if comm.rank > 0:
             return _follow(comm, stop)
@@ -83,16 +82,16 @@ def _lead(
 ) -> ExitCode:
     try:
         with ExitStack() as stack:
-            with stop.leaving_at_once():
+            with stop.breaking_off():
                 scene = read_scene()
                 directory = opened(scene, out or Path(f"campaign-{scene.name}"), ranks.size, earlier)
                 begun = stack.enter_context(directory)
             return conduct(begun, prepare, ranks, stop, write_report)
-    except StoppedError:
+    except BrokenOff:
         say("Asked to stop before anything was begun. Give the same command again to continue.")
         return ExitCode.RESUMABLE
     except CampaignError as refusal:
-        print(refusal, file=sys.stderr, flush=True)
+        complain(refusal)
         return ExitCode.REFUSED
 
 

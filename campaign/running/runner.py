@@ -18,7 +18,7 @@ from campaign.running.interrupt import LAST_CALL
 from campaign.running.level import Level
 from campaign.running.progress import Progress, nothing_ahead
 from campaign.running.side_run import Means
-from campaign.running.stop_request import StoppedError, StopRequest, listening
+from campaign.running.stop_request import BrokenOff, StopRequest, listening
 from campaign.running.walltime import job_end
 from campaign.running.workload import seconds_beyond_sampling
 from campaign.scene import Scene, load_scene
@@ -105,14 +105,16 @@ def conduct(
     """
 
     def prepare_unless_stopped(scene: Scene, path: Path) -> PreparedGround:
-        with stop.leaving_at_once():
+        with stop.breaking_off():
+            if stop.drain:
+                raise BrokenOff
             return prepare(scene, path)
 
     end = job_end()
     obstacle = _obstacle(stop, end, directory.obstacle)
     try:
         ground = prepare_unless_stopped(directory.scene, directory.path)
-    except StoppedError:
+    except BrokenOff:
         return directory.leave()
     directory.level.fit(ground)
     tally = directory.level.tally()

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from campaign.errors import RefusalError
 from campaign.record import RealizationSummary, Status
 from campaign.running.level import Level
-from campaign.running.stop_request import StoppedError
+from campaign.running.stop_request import BrokenOff
 from campaign.scene import Scene
 from campaign.simulation.contract import Prepare, PreparedGround
 from campaign.statistics.tally import Tally
@@ -88,7 +88,7 @@ def make(run: SideRun, means: Means) -> Made:
     except RefusalError as refusal:
         say(f"{run.loss} {refusal}")
         return Made(None, "")
-    except StoppedError:
+    except BrokenOff:
         return Made(None, "asked to stop")
     except OSError as error:
         return Made(None, f"{run.directory} cannot be written ({error})")

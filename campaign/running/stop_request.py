@@ -10,42 +10,42 @@ ECHO = 1.0
 """Seconds within which a repeated interrupt is one key press that came by the process group and by the launcher."""
 
 
-class StoppedError(BaseException):
-    """Asked to stop, and nothing is lost by it."""
+class BrokenOff(BaseException):
+    """What was under way was left at somebody's request."""
 
 
 class StopRequest:
     """Whether somebody asked for an end.
 
     `drain` is set by the first USR1, TERM or INT: start nothing new, finish what is under way. `now` is set by TERM,
-    after which SLURM waits half a minute, and by a second INT: abandon it.
+    after which SLURM waits half a minute, and by a second INT: abandon it. Within `breaking_off` any of them raises
+    `BrokenOff` besides.
     """
 
     def __init__(self) -> None:
         self.drain = False
         self.now = False
         self._first = 0.0
-        self._leaves_at_once = False
+        self._breaks_off = False
 
     def receive(self, number: int, _frame: FrameType | None = None) -> None:
-        """Handle a signal: set flags, since it may interrupt anything, and leave what may be left."""
+        """Handle a signal; sets flags and, since it may interrupt anything, does more only where that is allowed."""
         repeated = self.drain and time.monotonic() - self._first > ECHO
         self.now = self.now or number == signal.SIGTERM or (repeated and number == signal.SIGINT)
         if not self.drain:
             self.drain, self._first = True, time.monotonic()
-        if self._leaves_at_once:
-            raise StoppedError
+        if self._breaks_off:
+            self._breaks_off = False
+            raise BrokenOff
 
     @contextmanager
-    def leaving_at_once(self) -> Iterator[None]:
-        """Let a signal, also one that came before, end the context in `StoppedError`: it can be done again."""
-        self._leaves_at_once = True
+    def breaking_off(self) -> Iterator[None]:
+        """Let a signal raise `BrokenOff` inside this, for work that another day can do as well."""
+        self._breaks_off = True
         try:
-            if self.drain:
-                raise StoppedError
             yield
         finally:
-            self._leaves_at_once = False
+            self._breaks_off = False
 
 
 @contextmanager

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from campaign.record import Record, Status, summarize
 from campaign.running.interrupt import Interrupt
 from campaign.running.machine_fault import MachineFaultError, is_machine_fault
-from campaign.running.stop_request import StoppedError
+from campaign.running.stop_request import BrokenOff
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import Interrupted, PreparedGround, without_result
 from campaign.statistics.tally import Fault, RankReport
@@ -37,9 +37,9 @@ class Worker:
         self.interrupt.restart()
         asked = iter([False])
         try:
-            with self.interrupt.stop.leaving_at_once():
+            with self.interrupt.stop.breaking_off():
                 self.ground.simulate(BASELINE, lambda: self.interrupt() or next(asked, True))
-        except (Interrupted, StoppedError):
+        except (Interrupted, BrokenOff):
             return
         except Exception as error:
             if is_machine_fault(error):  # what the scene causes is a status, in its turn
