@@ -65,8 +65,9 @@ def _scene_that_can_run(options: argparse.Namespace) -> "Scene":
 
 def _run_on_ranks(options: argparse.Namespace, scene: "Scene | None") -> ExitCode:
     from campaign.running.guard import ending_all_ranks
+    from campaign.running.stop_request import listening
 
-    with ending_all_ranks():  # before anything else is imported
+    with listening() as stop, ending_all_ranks():  # before anything else is imported, which may take long
         from campaign.record import Status
         from campaign.report.page import write_report
         from campaign.running.campaign_directory import Earlier
@@ -79,4 +80,5 @@ def _run_on_ranks(options: argparse.Namespace, scene: "Scene | None") -> ExitCod
             prepare,
             write_report,
             Earlier(options.allow_drift, frozenset(Status[name] for name in options.retry)),
+            stop,
         )

@@ -10,7 +10,7 @@ import os
 import threading
 import time
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import ExitStack, nullcontext
 from pathlib import Path
 
 from mpi4py import MPI
@@ -44,6 +44,7 @@ def run_on_ranks(
     prepare: Prepare,
     write_report: WriteReport | None = None,
     earlier: Earlier = ALL_STANDS,
+    stop: StopRequest | None = None,
 ) -> ExitCode:
     """Run a campaign on all ranks of this MPI job, or continue it.
 
@@ -59,8 +60,10 @@ def run_on_ranks(
         Makes the report when the results are written.
     earlier
         What may become of the work of earlier starts.
+    stop
+        Where somebody listens to signals already.
     """
-    with ending_all_ranks() as comm, listening() as stop:
+    with ending_all_ranks() as comm, nullcontext(stop) if stop else listening() as stop:
         if sentence := launcher.mismatch(comm.size, os.environ):
             complain(sentence)
             return ExitCode.REFUSED
@@ -83,6 +86,7 @@ def _lead(
     try:
         with ExitStack() as stack:
             with stop.breaking_off():
+                stop.obey()
                 scene = read_scene()
                 directory = opened(scene, out or Path(f"campaign-{scene.name}"), ranks.size, earlier)
                 begun = stack.enter_context(directory)

@@ -106,8 +106,7 @@ def conduct(
 
     def prepare_unless_stopped(scene: Scene, path: Path) -> PreparedGround:
         with stop.breaking_off():
-            if stop.drain:
-                raise BrokenOff
+            stop.obey()
             return prepare(scene, path)
 
     end = job_end()

@@ -47,6 +47,11 @@ class StopRequest:
         finally:
             self._breaks_off = False
 
+    def obey(self) -> None:
+        """Raise `BrokenOff` if somebody has asked for an end already."""
+        if self.drain:
+            raise BrokenOff
+
 
 @contextmanager
 def listening() -> Iterator[StopRequest]:

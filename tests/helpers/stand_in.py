@@ -64,7 +64,8 @@ def prepare(scene: Scene, _directory: Path) -> StandIn:
 
 
 def misbehave(realization: int) -> None:
-    if os.environ.get("PMI_RANK") == os.environ.get("STAND_IN_SICK", "none"):
+    rank = os.environ.get("PMI_RANK", os.environ.get("OMPI_COMM_WORLD_RANK", "0"))
+    if rank == os.environ.get("STAND_IN_SICK"):
         raise OSError(errno.ENOSPC, "No space left on device")
     if str(realization) == os.environ.get("STAND_IN_MEMORY"):
         raise MemoryError("64 GiB are wanted")

@@ -119,7 +119,8 @@ BREAKING = """
 import os, sys
 class Broken:
     def find_spec(self, name, path, target=None):
-        if name == {module!r} and os.environ.get("PMI_RANK") == "1":
+        rank = os.environ.get("PMI_RANK", os.environ.get("OMPI_COMM_WORLD_RANK"))
+        if name == {module!r} and rank == "1":
             raise {error}
 sys.meta_path.insert(0, Broken())
 """
