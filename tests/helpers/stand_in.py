@@ -56,10 +56,12 @@ class StandIn:
         return record(self.scene, realization)
 
 
-def prepare(scene: Scene, _directory: Path) -> StandIn:
+def prepare(scene: Scene, directory: Path) -> StandIn:
     if "STAND_IN_RAISE_IN_PREPARE" in os.environ:
         raise RuntimeError("the runner itself is broken")
-    time.sleep(float(os.environ.get("STAND_IN_PREPARE_SECONDS", "0")))
+    if seconds := os.environ.get("STAND_IN_PREPARE_SECONDS"):
+        (directory / ".preparing").touch()
+        time.sleep(float(seconds))
     return StandIn(scene)
 
 

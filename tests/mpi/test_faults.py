@@ -84,7 +84,7 @@ def test_a_realization_that_hangs_is_ended_and_skipped_after_the_second_time(tmp
 def test_a_signal_ends_the_preparation_at_once(tmp_path, number):
     directory = tmp_path / "out"
     process = start(directory, 4, 2, prepare_seconds=50)
-    wait_for(lambda: (directory / "manifest.json").exists(), "nothing is begun")
+    wait_for(lambda: (directory / ".preparing").exists(), "nothing is begun")
     begin = time.monotonic()
     os.kill(process.pid, number)
     output, _ = process.communicate(timeout=40)
