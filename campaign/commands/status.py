@@ -23,7 +23,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def carry_out(options: argparse.Namespace) -> ExitCode:
     """Print the state of the campaign."""
     from campaign.running.standing import conclusion, status, watch
-    from campaign.terminal import say
 
     if options.watch:
         watch(options.directory)

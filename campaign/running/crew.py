@@ -22,6 +22,7 @@ class Order(NamedTuple):
     scene: str  # SHA-256 of the one that the records belong to
     timeout: float  # s, of a realization
     job_end: float  # s since the epoch
+    rehearses: bool  # whether each rank tries itself out before its first realization
 
 
 class Crew(Protocol):
@@ -52,7 +53,8 @@ class Alone:
     def compute(self, order: Order, dispatcher: Dispatcher, aside: Callable[[], None]) -> None:
         """Compute one realization after another."""
         worker = worker_of(order, 0, self._stop, aside)
-        worker.rehearse()
+        if order.rehearses:
+            worker.rehearse()
         work(worker, dispatcher.exchange(RankReport(None)), dispatcher.exchange_here)
         aside()
 

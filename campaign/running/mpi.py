@@ -102,7 +102,8 @@ def _lead(
 def _follow(comm: MPI.Comm, stop: StopRequest) -> ExitCode:
     while (order := _share(comm, None)) is not None:
         worker = worker_of(order, comm.rank, stop, lambda: None)
-        _rehearse(comm, worker)
+        if order.rehearses:
+            _rehearse(comm, worker)
         work(worker, comm.scatter(None), lambda report: _ask(comm, report))
     return _agree(comm, None)
 
@@ -125,7 +126,8 @@ class Ranks:
         watch = Watch(order.timeout, Attempts(order.directory).note)
         service = Service(self._comm, dispatcher, watch, aside)
         worker = worker_of(order, 0, self._stop, service.poll)
-        _rehearse(self._comm, worker)
+        if order.rehearses:
+            _rehearse(self._comm, worker)
         work(worker, self._comm.scatter(service.begin()), service.exchange_here)
         service.finish()
 
@@ -139,6 +141,7 @@ def _rehearse(comm: MPI.Comm, worker: Worker) -> None:
     if node.rank > 0:
         worker.rehearse()
     node.Free()
+    _gather_round(comm)
 
 
 def _ask(comm: MPI.Comm, report: RankReport) -> int | None:

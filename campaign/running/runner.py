@@ -120,11 +120,11 @@ def conduct(
     directory.announce(crew.size, tally)
 
     def hand_out(level: Level, ground: PreparedGround, tally: Tally) -> str:
-        wanted = level.scene
-        order = Order(ground, level.directory, wanted.digest(), wanted.campaign.realization_timeout, end)
+        wanted, timeout, is_main = level.scene, level.scene.campaign.realization_timeout, level is directory.level
+        rehearses = is_main and tally.size is None
+        order = Order(ground, level.directory, wanted.digest(), timeout, end, rehearses)
         dispatcher = Dispatcher(tally, obstacle, level.tidier(tally))
-        ahead = partial(seconds_beyond_sampling, wanted, crew.size) if level is directory.level else nothing_ahead
-        progress = Progress(tally, ahead)
+        progress = Progress(tally, partial(seconds_beyond_sampling, wanted, crew.size) if is_main else nothing_ahead)
         crew.compute(order, dispatcher, lambda: dispatcher.observe(progress.tick))
         return dispatcher.stopped
 

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
 
 from campaign.exit_codes import ExitCode
 
@@ -50,7 +51,8 @@ class Watch:
         now = self._clock()
         for rank, (realization, begin) in list(self._begun.items()):
             if now - begin > self._patience:
-                self._hold_against(realization, f"no answer within {self._patience:.0f} s")
+                with suppress(OSError):  # it ends all the same
+                    self._hold_against(realization, f"no answer within {self._patience:.0f} s")
                 raise HungError(
                     f"Rank {rank} does not come back from realization {realization}, begun {now - begin:.0f} s ago, "
                     "so all ranks are ended. Give the same command again to continue: a realization that hangs twice "
