@@ -1,7 +1,7 @@
 """A results directory in the hands of rank 0: opened for work, and concluded."""
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
@@ -97,11 +97,12 @@ class CampaignDirectory:
         """Give the directory free."""
         self._lock.release()
 
-    def leave(self) -> ExitCode:
-        """Say and write down that the campaign was asked to stop before its first realization; return its exit code."""
-        verdict = "stopped early (asked to stop) before its first realization of this start"
+    def leave(self, why: str) -> ExitCode:
+        """Say and write down why the campaign ends before its first realization, and return its exit code."""
+        verdict = f"stopped early ({why}) before its first realization of this start"
         say(f"{self.scene.title}: {verdict}. Give the same command again to continue.")
-        manifest.end(self.path, ExitCode.RESUMABLE, verdict)
+        with suppress(OSError):
+            manifest.end(self.path, ExitCode.RESUMABLE, verdict)
         return ExitCode.RESUMABLE
 
     def conclude(

@@ -16,6 +16,7 @@ from campaign.running.crew import Alone, Crew, Order
 from campaign.running.dispatcher import Dispatcher
 from campaign.running.interrupt import LAST_CALL
 from campaign.running.level import Level
+from campaign.running.machine_fault import MachineFaultError, machine_faults
 from campaign.running.progress import Progress, nothing_ahead
 from campaign.running.side_run import Means
 from campaign.running.stop_request import BrokenOff, StopRequest, listening
@@ -105,7 +106,7 @@ def conduct(
     """
 
     def prepare_unless_stopped(scene: Scene, path: Path) -> PreparedGround:
-        with stop.breaking_off():
+        with stop.breaking_off(), machine_faults():
             stop.obey()
             return prepare(scene, path)
 
@@ -113,9 +114,12 @@ def conduct(
     obstacle = _obstacle(stop, end, directory.obstacle)
     try:
         ground = prepare_unless_stopped(directory.scene, directory.path)
+        with machine_faults():
+            directory.level.fit(ground)
     except BrokenOff:
-        return directory.leave()
-    directory.level.fit(ground)
+        return directory.leave("asked to stop")
+    except MachineFaultError as fault:
+        return directory.leave(f"the ground could not be prepared: {fault}")
     tally = directory.level.tally()
     directory.announce(crew.size, tally)
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from campaign.errors import RefusalError
 from campaign.record import RealizationSummary, Status
 from campaign.running.level import Level
+from campaign.running.machine_fault import MachineFaultError
 from campaign.running.stop_request import BrokenOff
 from campaign.scene import Scene
 from campaign.simulation.contract import Prepare, PreparedGround
@@ -90,6 +91,8 @@ def make(run: SideRun, means: Means) -> Made:
         return Made(None, "")
     except BrokenOff:
         return Made(None, "asked to stop")
+    except MachineFaultError as fault:
+        return Made(None, f"the ground of {run.directory} could not be prepared: {fault}")
     except OSError as error:
         return Made(None, f"{run.directory} cannot be written ({error})")
     return _made(tally, means.stopped)

@@ -1,11 +1,10 @@
 """What every rank does with an id: simulate it alone, keep its record, say how it went."""
 
-import traceback
 from dataclasses import dataclass
 
 from campaign.record import Record, Status, summarize
 from campaign.running.interrupt import Interrupt
-from campaign.running.machine_fault import MachineFaultError, is_machine_fault
+from campaign.running.machine_fault import MachineFaultError, machine_faults, reason_of
 from campaign.running.stop_request import BrokenOff
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import Interrupted, PreparedGround, without_result
@@ -37,13 +36,12 @@ class Worker:
         self.interrupt.restart()
         asked = iter([False])
         try:
-            with self.interrupt.stop.breaking_off():
+            with self.interrupt.stop.breaking_off(), machine_faults():
                 self.ground.simulate(BASELINE, lambda: self.interrupt() or next(asked, True))
-        except (Interrupted, BrokenOff):
+        except MachineFaultError as fault:
+            self._unfit, self._faults = f"it fails before its first realization: {fault}", PATIENCE
+        except (BrokenOff, Exception):  # what the scene causes is a status, in its turn
             return
-        except Exception as error:
-            if is_machine_fault(error):  # what the scene causes is a status, in its turn
-                self._unfit, self._faults = f"it fails before its first realization: {_reason(error)}", PATIENCE
 
     def run(self, realization: int) -> RankReport:
         """Simulate one realization and keep its record."""
@@ -56,8 +54,8 @@ class Worker:
             if record is None:
                 return RankReport(None, self.interrupt.abandons)
             self.store.write(record)
-        except MachineFaultError as error:
-            return self._fault(realization, str(error))
+        except MachineFaultError as fault:
+            return self._fault(realization, f"realization {realization} ended in {fault}")
         except OSError as error:
             return RankReport(None, f"realization {realization} cannot be kept in {self.store.records} ({error})")
         self._faults = 0
@@ -74,7 +72,8 @@ class Worker:
     def _simulate(self, realization: int) -> Record | None:
         """Return the record, or None when the realization is abandoned."""
         try:
-            record = self.ground.simulate(realization, self.interrupt)
+            with machine_faults():
+                record = self.ground.simulate(realization, self.interrupt)
             if is_sound(summarize(record)):
                 return record
             return self._without_result(realization, Status.diverged, "its run-out is not a number")
@@ -83,16 +82,10 @@ class Worker:
                 return None
             reason = f"took longer than the realization_timeout of {self.interrupt.timeout:g} s"
             return self._without_result(realization, Status.timeout, reason)
+        except MachineFaultError:
+            raise
         except Exception as error:
-            if is_machine_fault(error):
-                raise MachineFaultError(f"realization {realization} ended in {_reason(error)}") from error
-            return self._without_result(realization, Status.crashed, _reason(error))
+            return self._without_result(realization, Status.crashed, reason_of(error))
 
     def _without_result(self, realization: int, status: Status, reason: str) -> Record:
         return without_result(self.ground, realization, status, reason, self.interrupt.elapsed)
-
-
-def _reason(error: Exception) -> str:
-    """Return the last line of the traceback and the place it comes from."""
-    place = traceback.extract_tb(error.__traceback__)[-1]
-    return f"{traceback.format_exception_only(error)[-1].strip()} ({place.name}, line {place.lineno})"

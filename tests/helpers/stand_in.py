@@ -59,6 +59,8 @@ class StandIn:
 def prepare(scene: Scene, directory: Path) -> StandIn:
     if "STAND_IN_RAISE_IN_PREPARE" in os.environ:
         raise RuntimeError("the runner itself is broken")
+    if "STAND_IN_NO_MEMORY_TO_PREPARE" in os.environ:
+        raise MemoryError("64 GiB are wanted")
     if seconds := os.environ.get("STAND_IN_PREPARE_SECONDS"):
         (directory / ".preparing").touch()
         time.sleep(float(seconds))

@@ -49,6 +49,14 @@ def test_a_machine_on_which_nothing_works_records_nothing(alone, tmp_path):
     assert_same(dataset_of(tmp_path / "out"), alone)
 
 
+def test_a_ground_that_cannot_be_prepared_for_want_of_memory_can_be_later(tmp_path):
+    code, output = campaign(tmp_path / "out", 4, ranks=2, no_memory_to_prepare=1)
+    assert code == 75, output
+    assert "the ground could not be prepared: MemoryError: 64 GiB are wanted" in output
+    assert "Traceback" not in output
+    assert conclusion(tmp_path / "out") is ExitCode.RESUMABLE
+
+
 def test_what_crashed_is_run_again_when_asked_for(alone, tmp_path):
     directory = tmp_path / "out"
     assert campaign(directory, **{"raise": 7})[0] == 0
