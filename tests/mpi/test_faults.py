@@ -4,6 +4,7 @@ Campaigns run under the environment's own mpirun, with a stand-in for the solver
 """
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -78,14 +79,14 @@ def test_a_realization_that_hangs_is_ended_and_skipped_after_the_second_time(tmp
     """Also where rank 0 itself hangs, and is ended by its own thread."""
     directory, short = tmp_path / "out", ["campaign.realization_timeout=0.5 s"]
     for _ in range(2):
-        code, output = campaign(directory, 12, ranks, short, hang=3, grace=0.5)
+        code, output = campaign(directory, 12, ranks, short, hang=3, grace=4)
         assert code == 75, output
-        assert "does not come back from realization 3, begun 1 s ago" in output
+        assert re.search(r"Rank \d does not come back from realization 3, begun \d+ s ago", output), output
         assert "Traceback" not in output
-    code, output = campaign(directory, 12, ranks, short, hang=3, grace=0.5)
+    code, output = campaign(directory, 12, ranks, short, hang=3, grace=4)
     assert code == 0, output
     assert "Realization 3 is recorded as crashed" in output
-    assert "no answer within 1 s" in str(dataset(directory).reason[3].values)
+    assert "no answer within 5 s" in str(dataset(directory).reason[3].values)
 
 
 @pytest.mark.parametrize("number", [signal.SIGUSR1, signal.SIGTERM])
