@@ -5,6 +5,7 @@ Nothing of ours is imported here before the guard stands, because an import may 
 
 import sys
 import threading
+import time
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,6 +13,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from mpi4py import MPI
+
+FORWARDING = 1.0
+"""Seconds in which the launcher hands on what was said last; with the ranks it ends itself."""
 
 
 @contextmanager
@@ -29,6 +33,7 @@ def ending_all_ranks() -> Iterator["MPI.Comm"]:
         else:
             print(error, file=sys.stderr)
         sys.stderr.flush()
+        time.sleep(FORWARDING)
         MPI.COMM_WORLD.Abort(70 if code is None else code)
 
     in_threads, threading.excepthook = threading.excepthook, lambda raised: end(raised.exc_value)
