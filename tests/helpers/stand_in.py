@@ -39,6 +39,7 @@ class StandIn:
             "x": np.arange(SIZES["x"]) + 0.5,
             "particle_x": np.arange(SIZES["particle"]) * 0.5,
             "particle_y": np.ones(SIZES["particle"]),
+            "initial_surface": np.full(SIZES["x"], 4.0),
         }
     )
 
