@@ -11,7 +11,7 @@ from campaign.commands.version import PrintVersion
 from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
 from campaign.running.launcher import refuse_several
-from campaign.terminal import let_go
+from campaign.terminal import complain, let_go, show_all
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
@@ -32,11 +32,13 @@ COMMANDS = ("run", "new", "validate", "draw", "status", "report", "replay", "com
 def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out one command and return its exit code; without arguments that is `run ma2023`."""
     _pin_threads()
+    show_all()
+    os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")  # files appear whole; not every file system has locks
     given = sys.argv[1:] if arguments is None else list(arguments)
     try:
         return _carry_out(parser().parse_args(given or DEFAULT))
     except KeyboardInterrupt:  # as long as a campaign does not listen to it, which then ends in order
-        print("Interrupted.", file=sys.stderr)
+        complain("Interrupted.")
         return ExitCode.INTERRUPTED
     finally:
         let_go()
@@ -49,7 +51,7 @@ def _carry_out(options: argparse.Namespace) -> ExitCode:
         code: ExitCode = options.carry_out(options)
     except CampaignError as refusal:
         if str(refusal):
-            print(refusal, file=sys.stderr)
+            complain(refusal)
         return ExitCode.REFUSED
     except BrokenPipeError:  # whoever watched has seen enough
         return ExitCode.DONE

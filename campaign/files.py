@@ -1,6 +1,7 @@
 """Files that are either wholly there or not there at all, whatever kills the process or the machine."""
 
 import os
+import re
 import socket
 from pathlib import Path
 
@@ -43,6 +44,27 @@ def set_aside(path: Path) -> Path:
 def temporary_name(path: Path) -> Path:
     """Return a hidden name beside `path` that no other process uses."""
     return path.with_name(f".{path.name}.{socket.gethostname()}.{os.getpid()}")
+
+
+def clear_temporaries(directory: Path) -> None:
+    """Remove what a killed process was writing into a directory, on this host or another one."""
+    for name in file_names(directory):
+        written = re.fullmatch(r"\..+\..+\.(\d+)", name)  # by `temporary_name`
+        if written and not _is_being_written(name, written[1]):
+            (directory / name).unlink(missing_ok=True)
+
+
+def _is_being_written(name: str, pid: str) -> bool:
+    return name.endswith(f".{socket.gethostname()}.{pid}") and Path("/proc", pid).exists()
+
+
+def file_names(directory: Path) -> list[str]:
+    """Return what the files in a directory are called, sorted; none where there is no directory."""
+    try:
+        with os.scandir(directory) as entries:
+            return sorted(entry.name for entry in entries if entry.is_file())
+    except FileNotFoundError:
+        return []
 
 
 def _sync(path: Path) -> None:

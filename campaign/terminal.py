@@ -2,7 +2,9 @@
 
 import os
 import sys
+from contextlib import suppress
 from datetime import timedelta
+from io import TextIOWrapper
 from math import ceil, floor, log10
 
 CLEAR = "\x1b[H\x1b[J"  # cursor home, and nothing after it (ECMA-48)
@@ -54,7 +56,7 @@ def refresh(text: str) -> None:
     OSError
         When nobody reads it, so that it need not be refreshed any more.
     """
-    print(f"{CLEAR if sys.stdout.isatty() else ''}{text}\n", end="", flush=True)
+    print(f"{CLEAR if sys.stdout.isatty() else ''}{printable(text)}\n", end="", flush=True)
 
 
 def say(text: object) -> None:
@@ -63,7 +65,7 @@ def say(text: object) -> None:
     Where the output is a closed pipe or a full disk this and all that follows is lost, and no work with it.
     """
     try:
-        print(f"{text}\n", end="", flush=True)
+        print(f"{printable(str(text))}\n", end="", flush=True)
     except OSError:
         _hush()
 
@@ -79,3 +81,21 @@ def let_go() -> None:
 def _hush() -> None:
     """Send the output to nowhere from now on, what has not been written of it included."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def complain(text: object) -> None:
+    """Print a whole line to where errors go."""
+    with suppress(OSError):
+        print(f"{printable(str(text))}\n", end="", flush=True, file=sys.stderr)
+
+
+def printable(text: str) -> str:
+    """Return text without what a terminal takes for a command, as titles and names of files may hold; lines stay."""
+    return "".join(each if each.isprintable() or each in "\n\t" else "?" for each in text)
+
+
+def show_all() -> None:
+    """Let the output show "?" for what its encoding lacks: that it cannot show something ends nothing."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
 HELP = "run a campaign, or continue it"
 
+RETRIED = "crashed, timeout, or both with a comma between"
+"""What may end otherwise the next time."""
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
@@ -22,7 +25,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", metavar="DIR", type=Path, help="results directory (default: DIR if that is given, or campaign-NAME)"
     )
+    parser.add_argument(
+        "--retry", metavar="STATUS", type=_statuses, default=(), help=f"run those again that ended so: {RETRIED}"
+    )
     parser.add_argument("--allow-drift", action="store_true", help="continue what another version of the solver began")
+
+
+def _statuses(text: str) -> tuple[str, ...]:
+    names = tuple(text.split(","))
+    if not {"crashed", "timeout"}.issuperset(names):
+        raise argparse.ArgumentTypeError(f"{text!r} is not {RETRIED}")
+    return names
 
 
 def carry_out(options: argparse.Namespace) -> ExitCode:
@@ -52,15 +65,22 @@ def _scene_that_can_run(options: argparse.Namespace) -> "Scene":
 
 
 def _run_on_ranks(options: argparse.Namespace, scene: "Scene | None") -> ExitCode:
-    from campaign.running.mpi import run_on_ranks
+    from campaign.running.guard import ending_all_ranks
+    from campaign.running.stop_request import listening
 
-    return run_on_ranks(
-        lambda: scene or _scene_that_can_run(options),
-        options.out or scene_directory(options),
-        _prepare,
-        _write_report,
-        options.allow_drift,
-    )
+    with listening() as stop, ending_all_ranks():  # before anything else is imported, which may take long
+        from campaign.record import Status
+        from campaign.running.campaign_directory import Earlier
+        from campaign.running.mpi import run_on_ranks
+
+        return run_on_ranks(
+            lambda: scene or _scene_that_can_run(options),
+            options.out or scene_directory(options),
+            _prepare,
+            _write_report,
+            Earlier(options.allow_drift, frozenset(Status[name] for name in options.retry)),
+            stop,
+        )
 
 
 def _prepare(scene: "Scene", directory: Path) -> "Ground":

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from campaign.errors import DamagedRecordError, RefusalError
+from campaign.files import clear_temporaries
 from campaign.record import Record
 from campaign.scene import kept_scene
 from campaign.seeds import BASELINE
@@ -129,6 +130,7 @@ def _new_file(directory: Path, realization: int) -> Path:
     path = directory / REPLAY / replay_file(realization)
     try:
         path.parent.mkdir(exist_ok=True)
+        clear_temporaries(path.parent)
     except OSError as error:
         raise RefusalError(f"{path.parent} cannot be written ({error}); copy the campaign to where it can.") from error
     return path

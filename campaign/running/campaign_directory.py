@@ -1,11 +1,13 @@
 """A results directory in the hands of rank 0: opened for work, and concluded."""
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import NamedTuple
 
 from campaign.errors import RefusalError
 from campaign.exit_codes import ExitCode
+from campaign.record import Status
 from campaign.running.beyond_sampling import BeyondSampling
 from campaign.running.level import Level
 from campaign.scene import Scene
@@ -19,8 +21,26 @@ from campaign.storage.provenance import attributes
 from campaign.terminal import counted, say
 
 
+class Earlier(NamedTuple):
+    """What may become of the work of earlier starts.
+
+    Attributes
+    ----------
+    allow_drift
+        Whether to continue what another version of the solver began.
+    retry
+        Realizations that ended so are run again.
+    """
+
+    allow_drift: bool = False
+    retry: frozenset[Status] = frozenset()
+
+
+ALL_STANDS = Earlier()
+
+
 @contextmanager
-def opened(scene: Scene, path: Path, ranks: int, allow_drift: bool = False) -> Iterator["CampaignDirectory"]:
+def opened(scene: Scene, path: Path, ranks: int, earlier: Earlier = ALL_STANDS) -> Iterator["CampaignDirectory"]:
     """Open a results directory for a campaign of `scene`, and give it free afterwards.
 
     Raises
@@ -28,7 +48,7 @@ def opened(scene: Scene, path: Path, ranks: int, allow_drift: bool = False) -> I
     RefusalError
         When the directory cannot be written, is in use, or belongs to something else.
     """
-    directory = CampaignDirectory(scene, path, ranks, allow_drift)
+    directory = CampaignDirectory(scene, path, ranks, earlier)
     try:
         yield directory
     finally:
@@ -38,13 +58,13 @@ def opened(scene: Scene, path: Path, ranks: int, allow_drift: bool = False) -> I
 class CampaignDirectory:
     """The directory of a scene's campaign, locked for this process."""
 
-    def __init__(self, scene: Scene, path: Path, ranks: int, allow_drift: bool) -> None:
+    def __init__(self, scene: Scene, path: Path, ranks: int, earlier: Earlier) -> None:
         self.scene = scene
         self.path = path
-        self.level = Level(scene, path)
+        self.level = Level(scene, path, earlier.retry)
         self._lock = DirectoryLock(path)
         try:
-            self._open(ranks, allow_drift)
+            self._open(ranks, earlier.allow_drift)
         except OSError as error:
             raise RefusalError(f"{path} cannot be written ({error}); give another --out, or make room.") from error
 
@@ -60,6 +80,10 @@ class CampaignDirectory:
         for note in filter(None, notes):
             say(note)
 
+    def obstacle(self) -> str:
+        """Return why nothing more may be written here, "" if it may."""
+        return "" if self._lock.is_ours() else f"{self.path} was moved away, or another campaign has taken it over"
+
     def announce(self, ranks: int, tally: Tally) -> None:
         """Say what is about to be done."""
         earlier = f"; {tally.done} are finished already" if tally.done else ""
@@ -69,6 +93,14 @@ class CampaignDirectory:
     def close(self) -> None:
         """Give the directory free."""
         self._lock.release()
+
+    def leave(self, why: str) -> ExitCode:
+        """Say and write down why the campaign ends before its first realization, and return its exit code."""
+        verdict = f"stopped early ({why}) before its first realization of this start"
+        say(f"{self.scene.title}: {verdict}. Give the same command again to continue.")
+        with suppress(OSError):
+            manifest.end(self.path, ExitCode.RESUMABLE, verdict)
+        return ExitCode.RESUMABLE
 
     def conclude(
         self,
@@ -90,6 +122,9 @@ class CampaignDirectory:
         """
         code, verdict = _end(tally, beyond.stopped)
         say(f"\n{self.scene.title}: {verdict}")
+        if lost := self.obstacle():
+            say(f"{lost}. Its records are kept: give the same command again where it is.")
+            return ExitCode.RESUMABLE
         try:
             if tally.prefix > 0:
                 say(self._write_results(ground, tally, verdict, beyond))

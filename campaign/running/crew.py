@@ -5,8 +5,9 @@ from pathlib import Path
 from typing import NamedTuple, Protocol
 
 from campaign.running.dispatcher import Dispatcher
+from campaign.running.interrupt import Interrupt
 from campaign.running.stop_request import StopRequest
-from campaign.running.worker import Interrupt, Worker
+from campaign.running.worker import Worker
 from campaign.simulation.contract import PreparedGround
 from campaign.statistics.tally import RankReport
 from campaign.storage.attempts import Attempts
@@ -22,6 +23,7 @@ class Order(NamedTuple):
     timeout: float  # s, of a realization
     job_end: float  # s since the epoch
     breaks_off: bool  # what is under way when somebody asks for an end
+    rehearses: bool  # whether each rank tries itself out before its first realization
 
 
 class Crew(Protocol):
@@ -52,6 +54,8 @@ class Alone:
     def compute(self, order: Order, dispatcher: Dispatcher, aside: Callable[[], None]) -> None:
         """Compute one realization after another."""
         worker = worker_of(order, 0, self._stop, aside)
+        if order.rehearses:
+            worker.rehearse()
         work(worker, dispatcher.exchange(RankReport(None)), dispatcher.exchange_here)
         aside()
 

@@ -4,9 +4,10 @@ import contextlib
 from collections.abc import Callable
 from pathlib import Path
 
-from campaign.record import Status
+from campaign.files import clear_temporaries
+from campaign.record import RealizationSummary, Status
 from campaign.scene import Scene
-from campaign.simulation.contract import PreparedGround, without_result
+from campaign.simulation.contract import PreparedGround, shapes, without_result
 from campaign.statistics.tally import Tally, tally_of
 from campaign.storage.attempts import Attempts
 from campaign.storage.record_store import RecordStore
@@ -14,11 +15,12 @@ from campaign.terminal import say
 
 
 class Level:
-    """The records of `scene`'s realizations, kept in `directory`."""
+    """The records of `scene`'s realizations, kept in `directory`; those that ended in one of `retry` are run again."""
 
-    def __init__(self, scene: Scene, directory: Path) -> None:
+    def __init__(self, scene: Scene, directory: Path, retry: frozenset[Status] = frozenset()) -> None:
         self.scene = scene
         self.directory = directory
+        self.retry = retry
         self.store = RecordStore(directory, scene.digest())
         self._attempts = Attempts(directory)
 
@@ -26,12 +28,16 @@ class Level:
         """Make ready for work, clearing up after a kill; returns sentences worth a look."""
         self.store.create()
         self._attempts.create()
+        for place in (self.directory, self._attempts.directory):
+            clear_temporaries(place)
         notes = self.store.recover()
         self._tidy()
         return notes
 
-    def give_up_crashed(self, ground: PreparedGround) -> None:
-        """Write records for the realizations that took the process down too often."""
+    def fit(self, ground: PreparedGround) -> None:
+        """Set records of another ground aside, and give realizations up that took the process down too often."""
+        for sentence in self.store.check_shapes(shapes(ground)):
+            say(sentence)
         finished = self.store.finished()
         for realization, reason in self._attempts.given_up().items():
             if realization not in finished:
@@ -39,10 +45,13 @@ class Level:
                 self.store.write(without_result(ground, realization, Status.crashed, reason))
 
     def tally(self) -> Tally:
-        """Return the account of what earlier starts have finished or given up."""
+        """Return the account of what earlier starts have finished or given up, without what is to be run again."""
         tally = tally_of(self.scene)
-        for summary in self.store.summaries()[0].values():
-            tally.add(summary)
+        for realization, summary in self.store.summaries()[0].items():
+            if self._is_run_again(summary):
+                self.store.loose.forget(realization)
+            else:
+                tally.add(summary)
         return tally
 
     def tidier(self, tally: Tally) -> Callable[[], None]:
@@ -56,6 +65,11 @@ class Level:
                 self._tidy()
 
         return tidy
+
+    def _is_run_again(self, summary: RealizationSummary) -> bool:
+        """Whether an earlier result is not to stand: the user says so, or there is more time than it has taken."""
+        has_time = summary.wall_time < self.scene.campaign.realization_timeout
+        return summary.status in self.retry or (summary.status is Status.timeout and has_time)
 
     def _tidy(self) -> None:
         """Pack what can be packed; where there is no room for it, the loose records do as well."""

@@ -7,12 +7,10 @@ which would burn a core and hold back signals.
 """
 
 import os
-import sys
 import threading
 import time
-import traceback
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import ExitStack, nullcontext
 from pathlib import Path
 
 from mpi4py import MPI
@@ -20,15 +18,20 @@ from mpi4py import MPI
 from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
 from campaign.running import launcher
-from campaign.running.campaign_directory import opened
+from campaign.running.campaign_directory import ALL_STANDS, Earlier, opened
 from campaign.running.crew import Order, work, worker_of
 from campaign.running.dispatcher import Dispatcher
+from campaign.running.guard import ending_all_ranks
 from campaign.running.reporting import WriteReport
 from campaign.running.runner import conduct
-from campaign.running.stop_request import StopRequest, listening
+from campaign.running.stop_request import BrokenOff, StopRequest, listening
+from campaign.running.watch import Watch
+from campaign.running.worker import Worker
 from campaign.scene import Scene
 from campaign.simulation.contract import Prepare
 from campaign.statistics.tally import RankReport
+from campaign.storage.attempts import Attempts
+from campaign.terminal import complain, say
 
 REPORT, ANSWER = 1, 2
 
@@ -41,7 +44,8 @@ def run_on_ranks(
     out: Path | None,
     prepare: Prepare,
     write_report: WriteReport | None = None,
-    allow_drift: bool = False,
+    earlier: Earlier = ALL_STANDS,
+    stop: StopRequest | None = None,
 ) -> ExitCode:
     """Run a campaign on all ranks of this MPI job, or continue it.
 
@@ -55,17 +59,18 @@ def run_on_ranks(
         Computes what realizations share; called on rank 0.
     write_report
         Makes the report when the results are written.
-    allow_drift
-        Whether to continue what another version of the solver began.
+    earlier
+        What may become of the work of earlier starts.
+    stop
+        Where somebody listens to signals already.
     """
-    comm = MPI.COMM_WORLD
-    with _ending_all_ranks(comm), listening() as stop:
+    with ending_all_ranks() as comm, nullcontext(stop) if stop else listening() as stop:
         if sentence := launcher.mismatch(comm.size, os.environ):
-            print(sentence, file=sys.stderr, flush=True)
+            complain(sentence)
             return ExitCode.REFUSED
         if comm.rank > 0:
             return _follow(comm, stop)
-        code = _lead(Ranks(comm, stop), stop, read_scene, out, prepare, write_report, allow_drift)
+        code = _lead(Ranks(comm, stop), stop, read_scene, out, prepare, write_report, earlier)
         _share(comm, None)
         return _agree(comm, code)
 
@@ -77,20 +82,29 @@ def _lead(
     out: Path | None,
     prepare: Prepare,
     write_report: WriteReport | None,
-    allow_drift: bool,
+    earlier: Earlier,
 ) -> ExitCode:
     try:
-        scene = read_scene()
-        with opened(scene, out or Path(f"campaign-{scene.name}"), ranks.size, allow_drift) as directory:
-            return conduct(directory, prepare, ranks, stop, write_report)
+        with ExitStack() as stack:
+            with stop.breaking_off():
+                stop.obey()
+                scene = read_scene()
+                directory = opened(scene, out or Path(f"campaign-{scene.name}"), ranks.size, earlier)
+                begun = stack.enter_context(directory)
+            return conduct(begun, prepare, ranks, stop, write_report)
+    except BrokenOff:
+        say("Asked to stop before anything was begun. Give the same command again to continue.")
+        return ExitCode.RESUMABLE
     except CampaignError as refusal:
-        print(refusal, file=sys.stderr, flush=True)
+        complain(refusal)
         return ExitCode.REFUSED
 
 
 def _follow(comm: MPI.Comm, stop: StopRequest) -> ExitCode:
     while (order := _share(comm, None)) is not None:
         worker = worker_of(order, comm.rank, stop, lambda: None)
+        if order.rehearses:
+            _rehearse(comm, worker)
         work(worker, comm.scatter(None), lambda report: _ask(comm, report))
     return _agree(comm, None)
 
@@ -110,11 +124,25 @@ class Ranks:
     def compute(self, order: Order, dispatcher: Dispatcher, aside: Callable[[], None]) -> None:
         """Hand out realizations to all ranks, this one included, until there are no more."""
         _share(self._comm, order)
-        first = [dispatcher.exchange(RankReport(None)) for _ in range(self.size)]
-        service = Service(self._comm, first, dispatcher.exchange, aside)
+        watch = Watch(order.timeout, Attempts(order.directory).note)
+        service = Service(self._comm, dispatcher, watch, aside)
         worker = worker_of(order, 0, self._stop, service.poll)
-        work(worker, self._comm.scatter(first), dispatcher.exchange_here)
+        if order.rehearses:
+            _rehearse(self._comm, worker)
+        work(worker, self._comm.scatter(service.begin()), service.exchange_here)
         service.finish()
+
+
+def _rehearse(comm: MPI.Comm, worker: Worker) -> None:
+    """Let one rank of each node compile while the others wait, which then find its code."""
+    node = comm.Split_type(MPI.COMM_TYPE_SHARED)
+    if node.rank == 0:
+        worker.rehearse()
+    _gather_round(node)
+    if node.rank > 0:
+        worker.rehearse()
+    node.Free()
+    _gather_round(comm)
 
 
 def _ask(comm: MPI.Comm, report: RankReport) -> int | None:
@@ -130,10 +158,10 @@ class Service:
 
     Parameters
     ----------
-    first
-        The first realization of each rank; one that got None will not ask for more.
-    exchange
+    dispatcher
         Turns a report into the next realization.
+    watch
+        Notices who does not come back.
     aside
         Called again and again.
     """
@@ -141,19 +169,34 @@ class Service:
     def __init__(
         self,
         comm: MPI.Comm,
-        first: list[int | None],
-        exchange: Callable[[RankReport], int | None],
+        dispatcher: Dispatcher,
+        watch: Watch,
         aside: Callable[[], None],
     ) -> None:
         self._comm = comm
-        self._exchange = exchange
+        self._dispatcher = dispatcher
+        self._watch = watch
         self._aside = aside
-        self._busy = sum(realization is not None for realization in first[1:])
+        self._busy = 0
         self._closing = threading.Event()
         self._thread: threading.Thread | None = None
+
+    def begin(self) -> list[int | None]:
+        """Return the first realization of each rank, and answer those who got one from now on."""
+        first = [self._dispatcher.exchange(RankReport(None)) for _ in range(self._comm.size)]
+        for rank, realization in enumerate(first):
+            self._watch.begins(rank, realization)
+        self._busy = sum(realization is not None for realization in first[1:])
         if MPI.Query_thread() == MPI.THREAD_MULTIPLE:
             self._thread = threading.Thread(target=self._serve_on, name="service", daemon=True)
             self._thread.start()
+        return first
+
+    def exchange_here(self, report: RankReport) -> int | None:
+        """Take rank 0's own report and return its next realization."""
+        realization = self._dispatcher.exchange_here(report)
+        self._watch.begins(0, realization)
+        return realization
 
     def poll(self) -> None:
         """Answer who is waiting, unless a thread does; called from rank 0's time loop."""
@@ -177,9 +220,11 @@ class Service:
         status = MPI.Status()
         while self._comm.iprobe(source=MPI.ANY_SOURCE, tag=REPORT, status=status):
             source = status.Get_source()
-            realization = self._exchange(self._comm.recv(source=source, tag=REPORT))
+            realization = self._dispatcher.exchange(self._comm.recv(source=source, tag=REPORT))
+            self._watch.begins(source, realization)
             self._busy -= realization is None
             self._comm.send(realization, dest=source, tag=ANSWER)
+        self._watch.look()
         self._aside()
 
 
@@ -202,25 +247,3 @@ def _gather_round(comm: MPI.Comm) -> None:
     request = comm.Ibarrier()
     while not request.Test():
         time.sleep(5 * PAUSE)
-
-
-@contextmanager
-def _ending_all_ranks(comm: MPI.Comm) -> Iterator[None]:
-    """End all ranks when one ends in an exception, which would otherwise wait in MPI_Finalize for ever.
-
-    Any exception counts, `SystemExit` and `KeyboardInterrupt` included, and so does one in a thread.
-    """
-
-    def abort(error: BaseException | None) -> None:
-        traceback.print_exception(error)
-        sys.stderr.flush()
-        comm.Abort(ExitCode.INTERNAL_ERROR)
-
-    in_threads, threading.excepthook = threading.excepthook, lambda raised: abort(raised.exc_value)
-    try:
-        yield
-    except BaseException as error:
-        abort(error)
-        raise
-    finally:
-        threading.excepthook = in_threads

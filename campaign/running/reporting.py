@@ -6,10 +6,11 @@ keeps slides from being simulated again.
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 from campaign.running.side_run import Means, SideRun, make
 from campaign.running.stop_request import BrokenOff, StopRequest
+from campaign.scene import Scene
 from campaign.statistics.repetition import without_rule
 from campaign.statistics.tally import Tally
 from campaign.storage.layout import SNAPSHOTS
@@ -37,8 +38,7 @@ def draw_report(tally: Tally, means: Means, stop: StopRequest, write_report: Wri
     try:
         if not means.stopped:
             _simulate_slides(tally, means)
-            if stop.drain:
-                raise BrokenOff
+            stop.obey()
         with stop.breaking_off():
             say(f"Report: {write_report(means.home, False)}")
     except BrokenOff:
@@ -55,7 +55,7 @@ def _simulate_slides(tally: Tally, means: Means) -> None:
     from campaign.report.kept_slides import FilmedGround
     from campaign.report.replays import shown_slides
     from campaign.results.results import read_results
-    from campaign.simulation.ground import prepare
+    from campaign.simulation.ground import Ground
 
     results = read_results(means.home)
     shown = set(shown_slides(results).values())
@@ -69,4 +69,8 @@ def _simulate_slides(tally: Tally, means: Means) -> None:
         known=[summary for k, summary in tally.summaries.items() if k not in shown],
         breaks_off=True,
     )
-    make(run, means._replace(prepare=lambda scene, home: FilmedGround(prepare(scene, home), home)))
+
+    def filmed(scene: Scene, home: Path) -> FilmedGround:
+        return FilmedGround(cast(Ground, means.prepare(scene, home)), home)
+
+    make(run, means._replace(prepare=filmed))

@@ -14,13 +14,14 @@ from campaign.running.beyond_sampling import BeyondSampling, beyond_sampling
 from campaign.running.campaign_directory import CampaignDirectory, opened
 from campaign.running.crew import Alone, Crew, Order
 from campaign.running.dispatcher import Dispatcher
+from campaign.running.interrupt import LAST_CALL
 from campaign.running.level import Level
+from campaign.running.machine_fault import MachineFaultError, machine_faults
 from campaign.running.progress import Progress, nothing_ahead
 from campaign.running.reporting import WriteReport, draw_report
 from campaign.running.side_run import Means
-from campaign.running.stop_request import StopRequest, listening
+from campaign.running.stop_request import BrokenOff, StopRequest, listening
 from campaign.running.walltime import job_end
-from campaign.running.worker import LAST_CALL
 from campaign.running.workload import seconds_beyond_sampling
 from campaign.scene import Scene, load_scene
 from campaign.simulation.contract import Prepare, PreparedGround
@@ -104,24 +105,37 @@ def conduct(
     CampaignError
         If the scene cannot be run.
     """
+
+    def prepare_unless_stopped(scene: Scene, path: Path) -> PreparedGround:
+        with stop.breaking_off(), machine_faults():
+            stop.obey()
+            return prepare(scene, path)
+
     end = job_end()
-    ground = prepare(directory.scene, directory.path)
-    directory.level.give_up_crashed(ground)
+    obstacle = _obstacle(stop, end, directory.obstacle)
+    try:
+        ground = prepare_unless_stopped(directory.scene, directory.path)
+        with machine_faults():
+            directory.level.fit(ground)
+    except BrokenOff:
+        return directory.leave("asked to stop")
+    except MachineFaultError as fault:
+        return directory.leave(f"the ground could not be prepared: {fault}")
     tally = directory.level.tally()
     directory.announce(crew.size, tally)
 
     def hand_out(level: Level, ground: PreparedGround, tally: Tally, breaks_off: bool = False) -> str:
-        wanted = level.scene
-        timeout = wanted.campaign.realization_timeout
-        order = Order(ground, level.directory, wanted.digest(), timeout, end, breaks_off)
-        dispatcher = Dispatcher(tally, _obstacle(stop, end), level.tidier(tally))
-        ahead = partial(seconds_beyond_sampling, wanted, crew.size) if level is directory.level else nothing_ahead
-        progress = Progress(tally, ahead)
+        wanted, timeout, is_main = level.scene, level.scene.campaign.realization_timeout, level is directory.level
+        rehearses = is_main and tally.size is None
+        order = Order(ground, level.directory, wanted.digest(), timeout, end, breaks_off, rehearses)
+        dispatcher = Dispatcher(tally, obstacle, level.tidier(tally))
+        progress = Progress(tally, partial(seconds_beyond_sampling, wanted, crew.size) if is_main else nothing_ahead)
         crew.compute(order, dispatcher, lambda: dispatcher.observe(progress.tick))
         return dispatcher.stopped
 
     stopped = hand_out(directory.level, ground, tally)
-    beyond, means = BeyondSampling(stopped), Means(directory.path, prepare, hand_out, stopped)
+    means = Means(directory.path, prepare_unless_stopped, hand_out, stopped, directory.level.retry)
+    beyond = BeyondSampling(stopped)
     if tally.size is not None:
         beyond = beyond_sampling(directory.scene, tally, means)
     means = means.after(beyond.stopped)
@@ -129,10 +143,10 @@ def conduct(
     return directory.conclude(ground, tally, beyond, draw)
 
 
-def _obstacle(stop: StopRequest, end: float) -> Callable[[float], str]:
+def _obstacle(stop: StopRequest, end: float, lost: Callable[[], str]) -> Callable[[float], str]:
     def obstacle(longest: float) -> str:
         if stop.drain:
             return "asked to stop"
-        return "the job's time is nearly over" if time.time() + longest + LAST_CALL > end else ""
+        return lost() or ("the job's time is nearly over" if time.time() + longest + LAST_CALL > end else "")
 
     return obstacle

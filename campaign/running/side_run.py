@@ -5,8 +5,10 @@ from pathlib import Path
 from typing import NamedTuple, Protocol
 
 from campaign.errors import RefusalError
-from campaign.record import RealizationSummary
+from campaign.record import RealizationSummary, Status
 from campaign.running.level import Level
+from campaign.running.machine_fault import MachineFaultError
+from campaign.running.stop_request import BrokenOff
 from campaign.scene import Scene
 from campaign.simulation.contract import Prepare, PreparedGround
 from campaign.statistics.tally import Tally
@@ -33,12 +35,15 @@ class Means(NamedTuple):
         Has all ranks compute realizations.
     stopped
         Why nothing new may be begun, "" if it may.
+    retry
+        Realizations that ended so in an earlier start are run again.
     """
 
     home: Path
     prepare: Prepare
     hand_out: HandOut
     stopped: str
+    retry: frozenset[Status] = frozenset()
 
     def after(self, stopped: str) -> "Means":
         """Return the means that are left when something had to stop for this reason, "" if it had not."""
@@ -82,7 +87,7 @@ class Made(NamedTuple):
 def make(run: SideRun, means: Means) -> Made:
     """Make the runs that earlier starts have not made."""
     try:
-        level = Level(run.scene(), run.directory)
+        level = Level(run.scene(), run.directory, means.retry)
         for note in level.open():
             say(note)
         tally = _account(level, run)
@@ -91,6 +96,10 @@ def make(run: SideRun, means: Means) -> Made:
     except RefusalError as refusal:
         say(f"{run.loss} {refusal}")
         return Made(None, "")
+    except BrokenOff:
+        return Made(None, "asked to stop")
+    except MachineFaultError as fault:
+        return Made(None, f"the ground of {run.directory} could not be prepared: {fault}")
     except OSError as error:
         return Made(None, f"{run.directory} cannot be written ({error})")
     return _made(tally, means.stopped)
@@ -99,7 +108,7 @@ def make(run: SideRun, means: Means) -> Made:
 def _compute(level: Level, run: SideRun, means: Means) -> Made:
     say(run.announcement)
     ground = means.prepare(level.scene, means.home)
-    level.give_up_crashed(ground)
+    level.fit(ground)
     tally = _account(level, run)
     stopped = means.hand_out(level, ground, tally, run.breaks_off)
     return _made(tally, stopped)

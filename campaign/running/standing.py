@@ -4,6 +4,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+from campaign.exit_codes import ExitCode
 from campaign.running.progress import state_line
 from campaign.scene.sections import Campaign, Slide
 from campaign.seeds import BASELINE
@@ -36,6 +37,20 @@ def status(directory: Path) -> str:
         lines.append(f"  {changed} repeated with more of one input")
     results = directory / RESULTS
     return "\n".join([*lines, f"  {results}" if results.exists() else "  no results.nc yet"])
+
+
+def conclusion(directory: Path) -> ExitCode:
+    """Return the exit code that rank 0 wrote down last, `RESUMABLE` when its latest start has not come to an end.
+
+    Launchers do not always tell it: MPICH's gives 0 when a rank vanishes.
+
+    Raises
+    ------
+    RefusalError
+        When there is no campaign.
+    """
+    end = manifest.read(directory)["end"]
+    return ExitCode.RESUMABLE if end is None else ExitCode(end["exit_code"])
 
 
 def watch(directory: Path) -> None:

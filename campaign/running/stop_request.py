@@ -17,8 +17,9 @@ class BrokenOff(BaseException):
 class StopRequest:
     """Whether somebody asked for an end.
 
-    `drain` is set by the first USR1, TERM or INT: start nothing new, finish what is under way. `now` is set by a second
-    INT: abandon it. Within `breaking_off` any of them raises `BrokenOff` besides.
+    `drain` is set by the first USR1, TERM or INT: start nothing new, finish what is under way. `now` is set by TERM,
+    after which SLURM waits half a minute, and by a second INT: abandon it. Within `breaking_off` any of them raises
+    `BrokenOff` besides.
     """
 
     def __init__(self) -> None:
@@ -30,7 +31,7 @@ class StopRequest:
     def receive(self, number: int, _frame: FrameType | None = None) -> None:
         """Handle a signal; sets flags and, since it may interrupt anything, does more only where that is allowed."""
         repeated = self.drain and time.monotonic() - self._first > ECHO
-        self.now = self.now or (repeated and number == signal.SIGINT)
+        self.now = self.now or number == signal.SIGTERM or (repeated and number == signal.SIGINT)
         if not self.drain:
             self.drain, self._first = True, time.monotonic()
         if self._breaks_off:
@@ -45,6 +46,11 @@ class StopRequest:
             yield
         finally:
             self._breaks_off = False
+
+    def obey(self) -> None:
+        """Raise `BrokenOff` if somebody has asked for an end already."""
+        if self.drain:
+            raise BrokenOff
 
 
 @contextmanager

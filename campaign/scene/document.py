@@ -85,7 +85,7 @@ def document_of(text: str, overrides: Iterable[str] = (), file: str = "scene.tom
         If it is not TOML, or an override cannot be read.
     """
     tables = _parse(text, file)
-    overrides = tuple(overrides)
+    overrides = tuple(re.sub(r"[\r\n]+", " ", override) for override in overrides)  # each is told as a line
     if messages := [message for override in overrides if (message := _apply(override, tables))]:
         raise SceneError(messages)
     return Document(Path(file).stem, Path(file).name, text, tables, overrides, key_lines(text))

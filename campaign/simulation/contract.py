@@ -72,6 +72,12 @@ def sizes(ground: PreparedGround) -> dict[str, int]:
     return {dim: n for name, row in rows.items() for dim, n in zip(row.dims, np.shape(given[name]), strict=True)}
 
 
+def shapes(ground: PreparedGround) -> dict[str, tuple[int, ...]]:
+    """Return the shape of each quantity of a record."""
+    lengths = sizes(ground)
+    return {name: tuple(lengths[dim] for dim in row.dims) for name, row in ground.quantities.items()}
+
+
 def given_rows(given: Mapping[str, Any]) -> dict[str, Quantity]:
     """Return the rows of `COORDINATES` and `SHARED` that a ground gives."""
     return {name: row for name, row in (COORDINATES | SHARED).items() if name in given}

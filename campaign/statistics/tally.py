@@ -16,11 +16,30 @@ from campaign.statistics.outcomes import Account
 from campaign.statistics.stopping import Checkpoint, StoppingRule, is_converged
 
 
+class Fault(NamedTuple):
+    """A realization that its rank could not compute, for a reason that is not the realization's.
+
+    Attributes
+    ----------
+    realization
+        Its id; nothing is recorded.
+    reason
+        What happened, and on which rank.
+    retires
+        Whether the rank takes no more work.
+    """
+
+    realization: int
+    reason: str
+    retires: bool
+
+
 class RankReport(NamedTuple):
-    """A rank's word to rank 0: what it has finished, and why it must stop ("" if it need not)."""
+    """A rank's word to rank 0: what it has finished, why all must stop ("" if they need not), what it could not do."""
 
     finished: RealizationSummary | None
     problem: str = ""
+    fault: Fault | None = None
 
 
 class Tally:

@@ -20,6 +20,7 @@ from campaign.storage.layout import (
     RECORDS,
     SNAPSHOTS,
 )
+from campaign.storage.manifest_shape import check_shape
 
 Manifest = dict[str, Any]
 
@@ -27,9 +28,6 @@ OWN = {LOCK, RECORDS, PACKS, ATTEMPTS, HALF_CELL, OTHER_RELEASE, CHANGED_INPUTS,
 """What a campaign that was killed before its manifest was written may leave."""
 
 FRONT_BEFORE_THERE_WAS_A_KEY = "tip"
-
-NEEDED = {"title", "scene", "overrides", "identity", "digest", "campaign", "starts", "end"}
-"""What every manifest holds, of whatever format."""
 
 
 class Access(Enum):
@@ -120,7 +118,7 @@ def _without_manifest(directory: Path) -> Judgement:
             Access.REFUSED,
             f"{directory} is not empty ({strange[0]} is in it) and holds no campaign; give another --out.",
         )
-    if any(file for room in (RECORDS, PACKS) for file in directory.glob(f"{room}/*.h5")):
+    if any(directory.rglob("*.h5")):
         return Judgement(
             Access.REFUSED,
             f"{directory} holds records but no {MANIFEST} that says whose they are; restore it, or give another --out.",
@@ -133,10 +131,9 @@ def _kept(path: Path) -> Manifest:
     try:
         kept: Manifest = dict(json.loads(path.read_text()))
         check_format(int(kept.get("format", 0)), str(kept.get("reader", "")), str(path.parent))
-    except (ValueError, TypeError) as error:
+        check_shape(kept)
+    except (OSError, ValueError, TypeError, RecursionError) as error:
         raise RefusalError(f"{path} is damaged ({error}); restore it, or give another --out.") from None
-    if lacking := sorted(NEEDED - kept.keys()):
-        raise RefusalError(f"{path} is damaged ({lacking[0]} is not in it); restore it, or give another --out.")
     return kept
 
 

@@ -6,13 +6,14 @@ is never held against the realization: the dataset must not depend on when a cam
 """
 
 import faulthandler
+import re
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from campaign.files import write_atomically
-from campaign.storage.layout import ATTEMPTS, CRASHES, EVERY_ATTEMPT, attempt_file
+from campaign.files import file_names, write_atomically
+from campaign.storage.layout import ATTEMPTS, CRASHES, attempt_file, is_attempt
 
 PATIENCE = 2
 """Crashes after which a realization is given up."""
@@ -44,26 +45,37 @@ class Attempts:
 
     def given_up(self) -> dict[int, str]:
         """Take account of the crashes since the last start; returns the reason for each id that had too many."""
-        traces = [line.split(" ", 1) for line in self._collect()]
-        counts = Counter(int(realization) for realization, _ in traces)
+        traces = self._collect()
+        counts = Counter(realization for realization, _ in traces)
         return {
-            int(realization): f"took the process down {counts[int(realization)]} times: {trace}"
+            realization: f"took the process down {counts[realization]} times: {trace}"
             for realization, trace in traces
-            if counts[int(realization)] >= PATIENCE
+            if counts[realization] >= PATIENCE
         }
 
-    def _collect(self) -> list[str]:
-        """Return a line "id trace" for each crash, old and new."""
-        lines = self._crashes.read_text().splitlines() if self._crashes.exists() else []
-        files = sorted(self.directory.glob(EVERY_ATTEMPT))
-        fresh = [line for file in files if (line := _crash(file.read_text()))]
+    def note(self, realization: int, trace: str) -> None:
+        """Hold something against a realization, as a crash would be."""
+        self._keep([*self._noted(), (realization, trace)])
+
+    def _collect(self) -> list[tuple[int, str]]:
+        """Return id and trace of each crash, old and new."""
+        files = [self.directory / name for name in file_names(self.directory) if is_attempt(name)]
+        fresh = [crash for file in files for crash in _crashes(r"(-?\d{1,9})\n(.+)", file)]
         if fresh:
-            write_atomically(self._crashes, "".join(f"{line}\n" for line in (*lines, *fresh)).encode())
+            self._keep([*self._noted(), *fresh])
         for file in files:
             file.unlink()
-        return lines + fresh
+        return self._noted()
+
+    def _noted(self) -> list[tuple[int, str]]:
+        return _crashes(r"(-?\d{1,9}) (.+)", self._crashes) if self._crashes.is_file() else []
+
+    def _keep(self, crashes: list[tuple[int, str]]) -> None:
+        lines = (f"{realization} {trace}\n" for realization, trace in crashes)
+        write_atomically(self._crashes, "".join(lines).encode())
 
 
-def _crash(text: str) -> str:
-    realization, *trace = text.splitlines() or [""]
-    return f"{realization} {trace[0]}" if trace else ""
+def _crashes(pattern: str, file: Path) -> list[tuple[int, str]]:
+    """Return id and trace of what a file says in these words; anything else in it is no matter."""
+    text = file.read_text(errors="replace")
+    return [(int(found[1]), found[2]) for found in re.finditer(f"^{pattern}$", text, re.MULTILINE | re.ASCII)]

@@ -1,7 +1,7 @@
 """Several records as columns: an array for each quantity, with a row for each realization."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,8 @@ class Columns:
         By the name of the quantity, an array (row, ...). A number that a record lacks is NaN, or 0 for integers.
     units : dict
         Of the values, by the same names.
+    scene : str
+        SHA-256 of the scene whose realizations they are; "" where that is not said.
     """
 
     realizations: NDArray[np.int64]
@@ -30,6 +32,7 @@ class Columns:
     reasons: NDArray[np.object_]
     values: Mapping[str, NDArray[Any]]
     units: Mapping[str, str]
+    scene: str = ""
 
     def __len__(self) -> int:
         return len(self.realizations)
@@ -37,13 +40,14 @@ class Columns:
     def take(self, rows: NDArray[np.bool_]) -> "Columns":
         """Return the rows of a mask."""
         values = {name: column[rows] for name, column in self.values.items()}
-        return Columns(self.realizations[rows], self.statuses[rows], self.reasons[rows], values, self.units)
+        kept = {name: getattr(self, name)[rows] for name in ("realizations", "statuses", "reasons")}
+        return replace(self, values=values, **kept)
 
     def record(self, row: int) -> Record:
         """Return one row as a record; its arrays are views."""
         values = {name: plain(column[row]) for name, column in self.values.items()}
         status, reason = Status(int(self.statuses[row])), str(self.reasons[row])
-        return Record(int(self.realizations[row]), status, reason, values, self.units)
+        return Record(int(self.realizations[row]), status, reason, values, self.units, self.scene)
 
     def records(self) -> list[Record]:
         """Return all rows as records."""

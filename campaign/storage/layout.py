@@ -16,9 +16,6 @@ ATTEMPTS = "attempts"
 CRASHES = "crashes"
 """Among the attempts: those that took the process down."""
 
-EVERY_ATTEMPT = "rank-*"
-"""Matches the files of `attempt_file`."""
-
 HALF_CELL = "half-cell"
 """Holds the realizations repeated with half the cell, in the same layout."""
 
@@ -69,6 +66,11 @@ def attempt_file(rank: int) -> str:
 def snapshots_file(realization: int) -> str:
     """Return the name of the file that holds what a realization looked like on its way."""
     return f"{realization_name(realization)}.arrays"
+
+
+def is_attempt(name: str) -> bool:
+    """Whether a file of this name is one of those."""
+    return re.fullmatch(r"rank-\d{4,}", name) is not None
 
 
 def replay_file(realization: int) -> str:

@@ -1,20 +1,19 @@
 """One campaign at a time in a directory, without ever standing in the way after a kill.
 
-The lock is a file with its holder's name and a heartbeat (its modification time), because `flock` cannot be relied on
-across the nodes of a cluster.
+The lock is a file with its holder's name, which appears whole in one step (a hard link, which is safe on network file
+systems, where `flock` cannot be relied on). Its time of modification is a heartbeat: whether it changes counts, and not
+what any clock says.
 """
 
 import contextlib
-import json
 import os
-import socket
 import threading
 import time
 from pathlib import Path
-from typing import TypedDict
 
 from campaign.errors import RefusalError
 from campaign.files import temporary_name
+from campaign.storage.holder import Holder, holder_of, this_process
 from campaign.storage.layout import LOCK
 
 HEARTBEAT = 20.0
@@ -27,42 +26,40 @@ PATIENCE = 10.0
 """Seconds to wait for a live holder on this host: ranks outlive a killed mpirun by a second or two."""
 
 
-class Holder(TypedDict):
-    """Who holds a lock."""
-
-    host: str
-    pid: int
-    born: str
-    job: str
-
-
 class DirectoryLock:
     """The right to hand out realizations into `directory`."""
 
     def __init__(self, directory: Path) -> None:
         self.path = directory / LOCK
+        self._me = this_process()
         self._released = threading.Event()
 
     def acquire(self) -> str:
         """Take the lock; returns a sentence when it was taken over from a dead holder, else "".
 
-        A live holder on this host is given `PATIENCE` to go; one on another host, whose processes cannot be looked at,
-        is taken for dead when its heartbeat does not move for as long as `SILENCE`, whatever its clock shows.
+        A live holder here is given `PATIENCE` to go; one elsewhere, whose processes cannot be looked at, is taken for
+        dead when its heartbeat does not move for as long as `SILENCE`.
 
         Raises
         ------
         RefusalError
             When another process is at work in the directory.
         """
-        note, start, first_beat = "", time.monotonic(), self._beat()
-        while not self._create():
-            holder, waited = self._holder(), time.monotonic() - start
-            if self._is_dead(holder, waited):
-                note = f"An earlier campaign here ended without a word{_name(holder)}; this one takes over."
-                self._remove()
-            elif waited > PATIENCE and (_is_here(holder) or self._beat() != first_beat):
+        note, begin = "", time.monotonic()
+        first = seen = self._sign()
+        changed = begin
+        while not _create(self.path, self._me):
+            sign, now = self._sign(), time.monotonic()
+            if sign != seen:
+                seen, changed = sign, now
+            holder = sign[0]
+            if _is_dead(holder, now - changed):
+                if self._remove(holder, now - changed):
+                    name = holder.name if holder else ""
+                    note = f"An earlier campaign here ended without a word{name}; this one takes over."
+            elif now - begin > PATIENCE and holder and (holder.is_here or seen != first):
                 raise RefusalError(
-                    f"Another campaign is at work in {self.path.parent}{_name(holder)}. Wait for it, stop it, "
+                    f"Another campaign is at work in {self.path.parent}{holder.name}. Wait for it, stop it, "
                     f"give another --out, or, if you know that it is gone, remove {self.path}."
                 )
             time.sleep(0.05)
@@ -70,50 +67,50 @@ class DirectoryLock:
         return note
 
     def release(self) -> None:
-        """Give the directory free."""
+        """Give the directory free, unless another campaign has it meanwhile."""
         self._released.set()
-        self.path.unlink(missing_ok=True)
+        if self.is_ours():
+            self.path.unlink(missing_ok=True)
+
+    def is_ours(self) -> bool:
+        """Whether the lock is still where it was made, and this one."""
+        return holder_of(self.path) == self._me
 
     def is_held(self) -> bool:
-        """Whether a living campaign is at work in the directory."""
-        holder = self._holder()
+        """Whether a living campaign is at work in the directory, as far as one look tells."""
+        holder = holder_of(self.path)
         if holder is None:
             return False
-        return _is_running(holder) if _is_here(holder) else time.time() - self._beat() < SILENCE
+        return holder.is_running if holder.is_here else self._now() - self._beat() < SILENCE
 
     def _keep_beating(self) -> None:
         while not self._released.wait(HEARTBEAT):
-            with contextlib.suppress(OSError):
-                os.utime(self.path)
+            if self.is_ours():
+                with contextlib.suppress(OSError):
+                    os.utime(self.path)
 
-    def _is_dead(self, holder: Holder | None, waited: float) -> bool:
-        if holder is None or not _is_here(holder):
-            return max(waited, time.time() - self._beat()) > (PATIENCE if holder is None else SILENCE)
-        return not _is_running(holder)
+    def _remove(self, dead: Holder | None, silent: float) -> bool:
+        """Remove a dead holder's lock; of several who try, one does, and none removes a lock made since.
 
-    def _remove(self) -> None:
-        """Remove a dead holder's lock; of several who try, one renames it, and none a lock made since."""
-        grave = temporary_name(self.path)
-        with contextlib.suppress(FileNotFoundError):
-            self.path.rename(grave)
-            grave.unlink()
-
-    def _create(self) -> bool:
-        try:
-            descriptor = os.open(self.path, os.O_CREAT | os.O_EXCL | os.O_WRONLY)
-        except FileExistsError:
+        Only who holds the right to remove may, and looks again before. Should it be killed between, its right is dead
+        as a lock is, `SILENCE` later than the lock.
+        """
+        right = self.path.with_name(f".{LOCK}.removal")
+        if not _create(right, self._me):
+            if _is_dead(holder_of(right), silent - SILENCE):
+                right.unlink(missing_ok=True)
             return False
-        with os.fdopen(descriptor, "w") as file:
-            json.dump(_self(), file)
-        return True
-
-    def _holder(self) -> Holder | None:
-        """Return the holder, or None when there is none or its name was never written."""
         try:
-            holder: Holder = json.loads(self.path.read_text())
-        except (OSError, ValueError):
-            return None
-        return holder
+            is_same = holder_of(self.path) == dead
+            if is_same:
+                self.path.unlink(missing_ok=True)
+            return is_same
+        finally:
+            right.unlink(missing_ok=True)
+
+    def _sign(self) -> tuple[Holder | None, float]:
+        """Return what changes as long as a holder lives, or when the holder does."""
+        return holder_of(self.path), self._beat()
 
     def _beat(self) -> float:
         try:
@@ -121,42 +118,47 @@ class DirectoryLock:
         except OSError:
             return 0.0
 
-
-def _self() -> Holder:
-    pid = os.getpid()
-    return {"host": socket.gethostname(), "pid": pid, "born": _born(pid), "job": os.environ.get("SLURM_JOB_ID", "")}
-
-
-def _is_here(holder: Holder | None) -> bool:
-    return holder is not None and holder["host"] == socket.gethostname()
-
-
-def _is_running(holder: Holder) -> bool:
-    return _born(holder["pid"]) == holder["born"] != ""
-
-
-def _born(pid: int) -> str:
-    """Return what tells a process from a later one with its number: its start in clock ticks; "" when dead or a zombie.
-
-    Where there is no /proc the number itself must do.
-    """
-    try:
-        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-    except OSError:
-        return "" if Path("/proc/self/stat").exists() else _running(pid)
-    return "" if fields[0] in "ZX" else fields[19]
+    def _now(self) -> float:
+        """Return the time on the clock that heartbeats show, which is the file server's."""
+        temporary = temporary_name(self.path)
+        try:
+            temporary.touch()
+            return temporary.stat().st_mtime
+        except OSError:
+            return time.time()
+        finally:
+            with contextlib.suppress(OSError):
+                temporary.unlink()
 
 
-def _running(pid: int) -> str:
-    try:
-        os.kill(pid, 0)
-    except OSError:
-        return ""
-    return "running"
-
-
-def _name(holder: Holder | None) -> str:
+def _is_dead(holder: Holder | None, silent: float) -> bool:
+    """Whether a holder is to be taken for dead after seconds without a sign of life; one without a name soon."""
     if holder is None:
-        return ""
-    job = f", SLURM job {holder['job']}" if holder["job"] else ""
-    return f" (process {holder['pid']} on {holder['host']}{job})"
+        return silent > PATIENCE
+    return not holder.is_running if holder.is_here else silent > SILENCE
+
+
+def _create(path: Path, holder: Holder) -> bool:
+    """Make a lock in one step; returns whether there was none."""
+    if path.exists():
+        return False
+    temporary = temporary_name(path.with_name(f"{path.name}-{holder.token}"))
+    temporary.write_text(holder.to_json())
+    try:
+        os.link(temporary, path)
+    except FileExistsError:
+        return temporary.stat().st_nlink == 2  # a network file system may have lost the answer
+    except OSError:  # a file system without hard links
+        return _create_without_links(path, holder)
+    finally:
+        temporary.unlink()
+    return True
+
+
+def _create_without_links(path: Path, holder: Holder) -> bool:
+    try:
+        with path.open("x") as file:
+            file.write(holder.to_json())
+    except FileExistsError:
+        return False
+    return True

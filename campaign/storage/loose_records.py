@@ -1,13 +1,15 @@
 """The records that have a file of their own."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from campaign.errors import DamagedRecordError
-from campaign.files import set_aside, write_atomically
+from campaign.files import file_names, set_aside, write_atomically
 from campaign.record import RealizationSummary, Record, summarize
 from campaign.storage.layout import RECORDS, realization_file, realization_of
 from campaign.storage.record_format import from_bytes, summarized_from_bytes, to_bytes
+from campaign.storage.soundness import Shape, check_owner, check_sound, misfit, not_fitting, shape_of
 
 
 class LooseRecords:
@@ -35,7 +37,7 @@ class LooseRecords:
 
     def ids(self) -> set[int]:
         """Return the realizations that have a file; what other files are called is no matter."""
-        numbers = (realization_of(path.name) for path in self.directory.glob("*.h5"))
+        numbers = map(realization_of, file_names(self.directory))
         return {number for number in numbers if number is not None}
 
     def write(self, record: Record) -> None:
@@ -72,7 +74,7 @@ class LooseRecords:
     def remove(self, realization: int) -> None:
         """Remove a record that is kept elsewhere."""
         self.path(realization).unlink()
-        self._verified.pop(realization, None)
+        self.forget(realization)
 
     def check(self, realization: int) -> str:
         """Set a damaged record aside so that its id is run again; returns a sentence when it was, else ""."""
@@ -83,10 +85,24 @@ class LooseRecords:
             return f"{error} It is set aside as {aside.name}, and realization {realization} is run again."
         return ""
 
+    def check_shapes(self, realization: int, wanted: Mapping[str, Shape]) -> str:
+        """Set a record aside whose quantities have not the shapes `wanted`; returns a sentence when it was, else ""."""
+        values = self.read(realization).values
+        name = misfit({name: shape_of(value) for name, value in values.items()}, wanted)
+        if not name:
+            return ""
+        self.forget(realization)
+        return not_fitting(self.path(realization), name, f"realization {realization} is")
+
+    def forget(self, realization: int) -> None:
+        """Read the file of a record again when it is asked for: another rank will write it."""
+        self._verified.pop(realization, None)
+        self._summaries.pop(realization, None)
+
     def _own(self, realization: int, record: Record, path: Path) -> Record:
         """Return a record if it is what its name and its directory say; raises DamagedRecordError if not."""
         if record.realization != realization:
             raise DamagedRecordError(f"The record in {path} is that of realization {record.realization}.")
-        if self._scene and record.scene and record.scene != self._scene:
-            raise DamagedRecordError(f"The record in {path} belongs to another scene, seed or cell.")
+        check_owner(record.scene, self._scene, f"The record in {path}")
+        check_sound([summarize(record)], f"The record in {path}")
         return record

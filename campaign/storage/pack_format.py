@@ -14,7 +14,7 @@ import h5py
 import numpy as np
 
 from campaign.errors import DamagedRecordError
-from campaign.record import SUMMARIZED, RealizationSummary, Record, Status, plain
+from campaign.record import SUMMARIZED, Record, Status, plain
 from campaign.storage import format_0
 from campaign.storage.columns import Columns, columns_of
 from campaign.storage.record_format import read_units, write_values
@@ -31,6 +31,7 @@ def to_bytes(columns: Columns) -> bytes:
     """Return the content of a pack; flags are compressed, a row at a time, so that damage stays in its row."""
     buffer = io.BytesIO()
     with h5py.File(buffer, "w", userblock_size=SIZE) as file:
+        file.attrs["scene"] = columns.scene
         file["realization"] = columns.realizations
         file["status"] = columns.statuses
         file.create_dataset("reason", data=columns.reasons, dtype=h5py.string_dtype())
@@ -52,6 +53,15 @@ def read(path: Path) -> Columns:
     RefusalError
         When only a newer version of the program can read it.
     """
+    return _read(path, None)
+
+
+def read_summarized(path: Path) -> Columns:
+    """Read and verify a pack of which only what decisions rest on is taken, a few columns; raises like `read`."""
+    return _read(path, SUMMARIZED)
+
+
+def _read(path: Path, names: Collection[str] | None) -> Columns:
     content, place = _content(path), f"The pack {path}"
     seal = seal_of(content, place)
     if seal is not None:
@@ -60,20 +70,7 @@ def read(path: Path) -> Columns:
         with h5py.File(io.BytesIO(content), "r") as file:
             if seal is None:
                 return columns_of([format_0.read_group(file[name], place) for name in file])
-            return _columns(file, list(file[VALUES]))
-    except READ_ERRORS as error:
-        raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
-
-
-def read_summaries(path: Path) -> list[RealizationSummary]:
-    """Read what decisions rest on, a few columns; nothing is verified. Raises like `read`."""
-    place = f"The pack {path}"
-    try:
-        with path.open("rb") as file:
-            if seal_of(file.read(SIZE), place) is None:
-                return read(path).summaries()
-        with h5py.File(path, "r") as file:
-            return _columns(file, SUMMARIZED).summaries()
+            return _columns(file, list(file[VALUES]) if names is None else names)
     except READ_ERRORS as error:
         raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
 
@@ -105,7 +102,7 @@ def _content(path: Path) -> bytes:
 def _columns(file: h5py.File, names: Collection[str]) -> Columns:
     values = {name: file[VALUES][name][()] for name in names}
     reasons, units = file["reason"].asstr()[()], read_units(file[VALUES], names)
-    return Columns(file["realization"][()], file["status"][()], reasons, values, units)
+    return Columns(file["realization"][()], file["status"][()], reasons, values, units, _scene(file))
 
 
 def _row(file: h5py.File, row: int) -> Record:
@@ -113,10 +110,14 @@ def _row(file: h5py.File, row: int) -> Record:
     values = {name: plain(column[row]) for name, column in file[VALUES].items()}
     status = Status(int(file["status"][row]))
     units = read_units(file[VALUES], values)
-    record = Record(int(file["realization"][row]), status, file["reason"].asstr()[row], values, units)
+    record = Record(int(file["realization"][row]), status, file["reason"].asstr()[row], values, units, _scene(file))
     if file["checksum"][row].decode() != _checksum(record):
         raise DamagedRecordError(f"Row {row} does not match its checksum.")
     return record
+
+
+def _scene(file: h5py.File) -> str:
+    return str(file.attrs.get("scene", ""))
 
 
 def _whole(read_one: Callable[[Any], Record], places: Iterable[Any]) -> list[Record]:
@@ -130,7 +131,7 @@ def _whole(read_one: Callable[[Any], Record], places: Iterable[Any]) -> list[Rec
 
 
 def _checksum(record: Record) -> str:
-    digest = hashlib.sha256(f"{record.realization} {int(record.status)} {record.reason}".encode())
+    digest = hashlib.sha256(f"{record.realization} {int(record.status)} {record.reason}{record.scene}".encode())
     for name, value in sorted(record.values.items()):
         array = np.asarray(value)
         digest.update(f"{name} {array.dtype.str} {array.shape}".encode())

@@ -4,7 +4,7 @@ import os
 import platform
 import socket
 import subprocess
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,10 @@ from campaign.terminal import counted
 PACKAGE = Path(__file__).parents[1]
 
 LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "netCDF4", "xarray", "mpi4py")
+
+
+OF_EACH_START = ("realization_sha256", "solver_sha256", "campaign_sha256", "git", "cpu")
+"""What the dataset tells of all starts, beside the versions of libraries."""
 
 
 def source_hashes() -> dict[str, str]:
@@ -52,8 +56,12 @@ def git_describe() -> str:
 
 
 def attributes(scene: Scene, manifest: Mapping[str, Any], verdict: str) -> dict[str, str | int | float]:
-    """Return the dataset's global attributes about its making; `manifest` as kept in the results directory."""
+    """Return the dataset's global attributes about its making; `manifest` as kept in the results directory.
+
+    What differs between starts is told for each, with semicolons between.
+    """
     starts = manifest["starts"]
+    versions = {name: [*dict.fromkeys(_versions_in(starts, name))] for name in starts[-1]["versions"]}
     rule = scene.campaign
     return {
         "title": scene.title,
@@ -77,10 +85,19 @@ def attributes(scene: Scene, manifest: Mapping[str, Any], verdict: str) -> dict[
         "scene_overrides": "\n".join(scene.overrides),
         "scene_sha256": scene.digest(),
         "solver_drift": str(len({start["realization_sha256"] for start in starts}) > 1).lower(),
-        **{name: starts[-1][name] for name in ("realization_sha256", "solver_sha256", "campaign_sha256", "git", "cpu")},
+        "library_drift": " ".join(name for name, numbers in versions.items() if len(numbers) > 1),
+        **{name: _each(start[name] for start in starts) for name in OF_EACH_START},
         "slurm_jobs": " ".join(sorted({start["slurm_job"] for start in starts} - {""})),
-        **{f"{name}_version": number for name, number in starts[-1]["versions"].items()},
+        **{f"{name}_version": _each(numbers) for name, numbers in versions.items()},
     }
+
+
+def _versions_in(starts: Iterable[Mapping[str, Any]], library: str) -> Iterator[str]:
+    return (start["versions"][library] for start in starts if library in start["versions"])
+
+
+def _each(values: Iterable[str]) -> str:
+    return "; ".join(dict.fromkeys(values))
 
 
 def _version(name: str) -> str:

@@ -4,17 +4,19 @@ A loose record takes precedence over a packed one. Any rank may write records; o
 lock, recovers and packs.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
 
 from campaign.errors import DamagedRecordError
+from campaign.files import clear_temporaries
 from campaign.record import RealizationSummary, Record
 from campaign.seeds import BASELINE
 from campaign.storage.columns import Columns, columns_of
 from campaign.storage.loose_records import LooseRecords
 from campaign.storage.packs import Packs
+from campaign.storage.soundness import Shape
 
 
 class RecordStore:
@@ -26,7 +28,7 @@ class RecordStore:
 
     def __init__(self, directory: Path, scene: str = "") -> None:
         self.loose = LooseRecords(directory, scene)
-        self.packs = Packs(directory)
+        self.packs = Packs(directory, scene)
         self.records = self.loose.directory
 
     def create(self) -> None:
@@ -105,11 +107,21 @@ class RecordStore:
             A sentence for each damaged file, which is kept under the name `*.damaged`.
         """
         for directory in (self.loose.directory, self.packs.directory):
-            for path in directory.glob(".*"):
-                if path.is_file():
-                    path.unlink()
+            clear_temporaries(directory)
         sentences = [self._check_pack(number) for number in self.packs.numbers()]
         sentences += [self.loose.check(realization) for realization in sorted(self.loose.ids())]
+        return [sentence for sentence in sentences if sentence]
+
+    def check_shapes(self, wanted: Mapping[str, Shape]) -> list[str]:
+        """Set files aside whose quantities have not the shapes `wanted`, so that their ids are run again.
+
+        Returns
+        -------
+        list of str
+            A sentence for each.
+        """
+        sentences = [self.packs.check_shapes(number, wanted) for number in self.packs.numbers()]
+        sentences += [self.loose.check_shapes(realization, wanted) for realization in sorted(self.loose.ids())]
         return [sentence for sentence in sentences if sentence]
 
     def pack(self) -> None:
@@ -120,11 +132,11 @@ class RecordStore:
             try:
                 if block <= loose | self._packed(number):
                     self._pack(number, block & loose)
-            except (DamagedRecordError, ValueError):  # the next start sets a damaged one aside
+            except (DamagedRecordError, ValueError, TypeError):  # the next start sets a damaged one aside
                 continue
 
     def _pack(self, number: int, loose: set[int]) -> None:
-        """Merge loose records into a pack; raises ValueError when they are not of one shape."""
+        """Merge loose records into a pack; raises ValueError or TypeError when they are not of one shape."""
         packed = self.packs.read(number).records() if self._packed(number) else []
         records = {record.realization: record for record in packed}
         records |= {realization: self.loose.read(realization) for realization in loose}

@@ -15,6 +15,9 @@ from campaign.storage.formats import FORMAT, READER, check_format
 SIZE = 512
 """The smallest block of bytes that HDF5 leaves to its user."""
 
+_HDF5 = b"\x89HDF"
+"""How a file of format 0 begins."""
+
 _LINE = re.compile(rb"runout-campaign format (\d+), read by (\S+) and newer, sha256 ([0-9a-f]{64})\n")
 
 
@@ -45,12 +48,16 @@ def seal_of(content: bytes, place: str) -> Seal | None:
 
     Raises
     ------
+    DamagedRecordError
+        When it is not a line of any version.
     RefusalError
         When only a newer version of the program can read the file.
     """
     found = _LINE.match(content[:SIZE])
     if found is None:
-        return None
+        if content.startswith(_HDF5):
+            return None
+        raise DamagedRecordError(f"{place} does not begin as it was written.")
     seal = Seal(int(found[1]), found[2].decode(), found[3].decode())
     check_format(seal.number, seal.reader, place)
     return seal

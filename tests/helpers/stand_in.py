@@ -3,6 +3,7 @@
 Run under mpirun as a campaign: `python stand_in.py DIR REALIZATIONS`, with STAND_IN_* variables for faults.
 """
 
+import errno
 import os
 import resource
 import signal
@@ -38,6 +39,7 @@ class StandIn:
             "x": np.arange(SIZES["x"]) + 0.5,
             "particle_x": np.arange(SIZES["particle"]) * 0.5,
             "particle_y": np.ones(SIZES["particle"]),
+            "initial_surface": np.full(SIZES["x"], 4.0),
         }
     )
 
@@ -55,13 +57,27 @@ class StandIn:
         return record(self.scene, realization)
 
 
-def prepare(scene: Scene, _directory: Path) -> StandIn:
+def prepare(scene: Scene, directory: Path) -> StandIn:
     if "STAND_IN_RAISE_IN_PREPARE" in os.environ:
         raise RuntimeError("the runner itself is broken")
+    if "STAND_IN_NO_MEMORY_TO_PREPARE" in os.environ:
+        raise MemoryError("64 GiB are wanted")
+    if seconds := os.environ.get("STAND_IN_PREPARE_SECONDS"):
+        (directory / ".preparing").touch()
+        time.sleep(float(seconds))
     return StandIn(scene)
 
 
 def misbehave(realization: int) -> None:
+    rank = os.environ.get("PMI_RANK", os.environ.get("OMPI_COMM_WORLD_RANK", "0"))
+    if rank == os.environ.get("STAND_IN_SICK"):
+        raise OSError(errno.ENOSPC, "No space left on device")
+    if str(realization) == os.environ.get("STAND_IN_MEMORY"):
+        raise MemoryError("64 GiB are wanted")
+    if str(realization) == os.environ.get("STAND_IN_VANISH"):
+        os._exit(0)
+    if str(realization) == os.environ.get("STAND_IN_HANG"):
+        time.sleep(1000)
     if str(realization) == os.environ.get("STAND_IN_RAISE"):
         raise ZeroDivisionError("a particle has no mass")
     if str(realization) == os.environ.get("STAND_IN_CRASH"):
@@ -87,9 +103,14 @@ def record(scene: Scene, realization: int) -> Record:
 
 
 if __name__ == "__main__":
+    from campaign.record import Status
+    from campaign.running import watch
+    from campaign.running.campaign_directory import Earlier
     from campaign.running.mpi import run_on_ranks
 
+    watch.GRACE = float(os.environ.get("STAND_IN_GRACE", "300"))
+    retry = frozenset(Status[name] for name in os.environ.get("STAND_IN_RETRY", "").split())
     directory, count, *overrides = sys.argv[1:]
     alone = ["campaign.discretisation_pairs=0", "campaign.sensitivity_pairs=0"]
     wanted = [f"campaign.realizations={count}", *alone, *overrides]
-    sys.exit(run_on_ranks(lambda: load_scene("ma2023", wanted), Path(directory), prepare))
+    sys.exit(run_on_ranks(lambda: load_scene("ma2023", wanted), Path(directory), prepare, None, Earlier(False, retry)))

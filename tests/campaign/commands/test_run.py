@@ -106,3 +106,10 @@ def test_of_launched_processes_only_rank_0_reads_the_scene():
     assert code == 2
     assert "a length needs its unit" in words
     assert "mpi4py" in libraries
+
+
+def test_statuses_that_may_end_otherwise_can_be_run_again(capsys):
+    assert options("ma2023", "--retry", "crashed,timeout").retry == ("crashed", "timeout")
+    with pytest.raises(SystemExit):
+        options("ma2023", "--retry", "slid")
+    assert "'slid' is not crashed, timeout" in capsys.readouterr().err

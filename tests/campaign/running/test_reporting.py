@@ -107,7 +107,7 @@ def test_the_first_request_leaves_a_slide_that_is_only_drawn(breaks_off):
     interrupt = Interrupt(stop, math.inf, math.inf, lambda: None, breaks_off)
     interrupt.restart()
     assert not interrupt()
-    stop.receive(signal.SIGTERM)
+    stop.receive(signal.SIGUSR1)
     assert interrupt() == breaks_off
 
 

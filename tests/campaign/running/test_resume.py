@@ -56,7 +56,7 @@ def reads(monkeypatch):
 def resume(directory):
     level = Level(SCENE, directory)
     assert level.open() == []
-    level.give_up_crashed(GROUND)
+    level.fit(GROUND)
     return level, level.tally()
 
 

@@ -1,6 +1,10 @@
 """The first interrupt asks, the second one stops."""
 
-from campaign.running.stop_request import ECHO, StopRequest
+import signal
+
+import pytest
+
+from campaign.running.stop_request import ECHO, BrokenOff, StopRequest, listening
 
 
 def test_the_second_interrupt_stops_now_but_an_echo_of_the_first_does_not(monkeypatch):
@@ -13,3 +17,18 @@ def test_the_second_interrupt_stops_now_but_an_echo_of_the_first_does_not(monkey
     clock[0] += 2 * ECHO
     stop.receive(2)
     assert stop.now
+
+
+@pytest.mark.parametrize(("number", "now"), [(signal.SIGTERM, True), (signal.SIGUSR1, False), (signal.SIGINT, False)])
+def test_term_leaves_no_time_to_finish(number, now):
+    stop = StopRequest()
+    stop.receive(number)
+    assert (stop.drain, stop.now) == (True, now)
+
+
+def test_what_can_be_done_again_is_left_at_once():
+    with listening() as stop:
+        with pytest.raises(BrokenOff), stop.breaking_off():
+            signal.raise_signal(signal.SIGUSR1)
+        signal.raise_signal(signal.SIGUSR1)  # outside, only a flag
+        assert stop.drain

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from scene_complaints import EXAMPLE, complaint, found_in, written
 
+from campaign.errors import SceneError
 from campaign.scene import load_scene
 from campaign.scene.document import key_lines
 
@@ -69,3 +70,17 @@ def test_the_line_of_a_key_is_found_among_sections_arrays_and_comments() -> None
         ("soil", "cohesion", "a"): 8,
         ("soil", "cohesion", "a", "b"): 8,
     }
+
+
+@pytest.mark.parametrize("line_break", ["\n", "\r\n", "\n\n\n"])
+def test_an_override_is_one_line_however_it_was_given(line_break: str) -> None:
+    """The dataset tells each on a line of its own, from which the report reads them again."""
+    scene = load_scene("ma2023", [f"soil.cohesion.mean={line_break}21 kPa", f"campaign.seed=7{line_break}"])
+    assert (scene.soil.cohesion.mean, scene.campaign.seed) == (21e3, 7)
+    again = load_scene("ma2023", "\n".join(scene.overrides).split("\n"))
+    assert again.digest() == scene.digest()
+
+
+def test_a_title_is_a_line() -> None:
+    with pytest.raises(SceneError, match="title"):
+        load_scene("ma2023", ['title="\\u001b[2J"'])

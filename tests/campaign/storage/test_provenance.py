@@ -127,3 +127,18 @@ def test_a_changed_sentence_is_no_new_program(program):
         if first.endswith('"""'):
             path.write_text(path.read_text().replace(first, f"{first[:-3]} Or so.{first[-3:]}", 1))
     assert realization_hash(program) == before
+
+
+def test_the_dataset_tells_the_program_of_every_start(begun):
+    path = begun / "manifest.json"
+    kept = json.loads(path.read_text())
+    other = {"versions": kept["starts"][0]["versions"] | {"numpy": "1.0"}, "cpu": "abacus"}
+    path.write_text(json.dumps(kept | {"starts": [kept["starts"][0] | other, kept["starts"][0]]}))
+    manifest.begin(begun, load_scene("ma2023"), 2, allow_drift=False)
+    about = provenance.attributes(load_scene("ma2023"), manifest.read(begun), "a verdict")
+    now = provenance.library_versions()
+    assert about["numpy_version"] == f"1.0; {now['numpy']}"
+    assert about["numba_version"] == now["numba"]
+    assert about["cpu"] == f"abacus; {provenance.machine()['cpu']}"
+    assert about["library_drift"] == "numpy"
+    assert about["solver_drift"] == "false"

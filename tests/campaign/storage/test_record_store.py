@@ -2,6 +2,7 @@
 
 import errno
 import os
+from dataclasses import replace
 
 import h5py
 import numpy as np
@@ -10,8 +11,11 @@ from records import SIZES, assert_same, make_record
 
 from campaign.errors import DamagedRecordError
 from campaign.record import Status, missing_values
+from campaign.scene import load_scene
 from campaign.seeds import BASELINE
 from campaign.simulation.quantities import QUANTITIES, UNITS
+from campaign.statistics.discretisation import with_half_cell
+from campaign.storage.columns import columns_of
 from campaign.storage.packs import Packs
 from campaign.storage.record_store import RecordStore
 
@@ -190,13 +194,73 @@ def test_a_flipped_bit_anywhere_is_noticed_before_the_library_reads_on(store, pl
             store.read(0)
 
 
-@pytest.mark.parametrize(("owner", "is_run_again"), [("a" * 64, False), ("b" * 64, True), ("", False)])
-def test_a_record_of_another_scene_is_set_aside_and_its_id_is_run_again(tmp_path, owner, is_run_again):
-    """One that does not say whose it is, as older ones do not, is taken."""
-    theirs = RecordStore(tmp_path, owner)
+OURS = load_scene("ma2023")
+OTHERS = {
+    "scene": load_scene(OURS, ["soil.cohesion.mean=21 kPa"]).digest(),
+    "seed": load_scene(OURS, ["campaign.seed=7"]).digest(),
+    "cell": with_half_cell(OURS, 6).digest(),
+}
+
+
+def kept(directory, owner, is_packed):
+    """Return how many of four foreign records are taken for ours, and what is said."""
+    theirs = RecordStore(directory, owner)
     theirs.create()
-    theirs.write(make_record(3))
-    ours = RecordStore(tmp_path, "a" * 64)
-    sentences = ours.recover()
-    assert ours.finished() == (set() if is_run_again else {3})
-    assert ["belongs to another scene, seed or cell" in each for each in sentences] == [True] * is_run_again
+    for realization in range(4):
+        theirs.write(make_record(realization))
+    if is_packed:
+        theirs.pack()
+    ours = RecordStore(directory, OURS.digest())
+    said = ours.summaries()[1]
+    assert len(ours.recover()) == len(said)
+    assert not ours.summaries()[1]
+    return len(ours.finished()), said
+
+
+@pytest.mark.parametrize("is_packed", [False, True])
+@pytest.mark.parametrize("owner", OTHERS.values(), ids=OTHERS.keys())
+def test_records_of_another_campaign_are_set_aside_and_run_again(tmp_path, monkeypatch, owner, is_packed):
+    monkeypatch.setattr(Packs, "SIZE", 4)
+    taken, said = kept(tmp_path, owner, is_packed)
+    assert taken == 0
+    assert all("belongs to another scene, seed or cell" in each for each in said)
+    assert len(said) == (1 if is_packed else 4)
+
+
+@pytest.mark.parametrize("is_packed", [False, True])
+@pytest.mark.parametrize("owner", ["", OURS.digest()])
+def test_records_of_this_campaign_are_taken_and_older_ones_that_do_not_say_whose(
+    tmp_path, monkeypatch, owner, is_packed
+):
+    monkeypatch.setattr(Packs, "SIZE", 4)
+    assert kept(tmp_path, owner, is_packed) == (4, [])
+
+
+def test_whose_a_packed_record_is_stands_under_its_checksum(packed):
+    """A damaged pack whose owner was changed gives no record away."""
+    with h5py.File(pack_path(packed, 0), "r+") as file:
+        file.attrs["scene"] = "b" * 64
+    assert packed.recover()
+    assert packed.finished() == {BASELINE, *range(4, 10)}
+
+
+def test_a_pack_under_the_name_of_another_is_set_aside(packed):
+    pack_path(packed, 1).rename(pack_path(packed, 7))
+    (sentence,) = packed.recover()
+    assert "other realizations than its name says" in sentence
+    assert packed.finished() == {BASELINE, *range(10)}
+
+
+@pytest.mark.parametrize("is_packed", [False, True])
+@pytest.mark.parametrize("runout", [np.nan, np.inf])
+def test_a_slide_without_a_runout_is_no_record(store, monkeypatch, runout, is_packed):
+    monkeypatch.setattr(Packs, "SIZE", 4)
+    records = [make_record(realization) for realization in range(4)]
+    records[2] = replace(records[2], values=records[2].values | {"final_runout": runout})
+    if is_packed:
+        store.packs.write(0, columns_of(records))
+    for record in () if is_packed else records:
+        store.write(record)
+    (sentence,) = RecordStore(store.records.parent).recover()
+    assert "realization 2 slid, and its run-out is not a number" in sentence
+    assert RecordStore(store.records.parent).finished() == {0, 1, 3}

@@ -1,0 +1,70 @@
+"""Campaigns of the stand-in (`stand_in.py`) under the environment's own mpirun."""
+
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from campaign.storage.lock import DirectoryLock
+
+MPIRUN = Path(sys.prefix) / "bin" / "mpirun"
+STAND_IN = Path(__file__).parent / "stand_in.py"
+
+
+def start(directory, realizations=40, ranks=2, overrides=(), **faults):
+    environment = os.environ | {f"STAND_IN_{name.upper()}": str(value) for name, value in faults.items()}
+    command = [MPIRUN, "-n", str(ranks), sys.executable, STAND_IN, directory, str(realizations), *overrides]
+    return subprocess.Popen(
+        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True
+    )
+
+
+def campaign(directory, realizations=40, ranks=2, overrides=(), **faults):
+    process = start(directory, realizations, ranks, overrides, **faults)
+    output, _ = process.communicate(timeout=60)
+    return process.returncode, output
+
+
+def dataset_of(directory, *arguments, **keywords):
+    """Return the dataset of a campaign that must come to its end; arguments are those of ``campaign``."""
+    code, output = campaign(directory, *arguments, **keywords)
+    assert code == 0, output
+    return dataset(directory)
+
+
+def dataset(directory):
+    with xr.open_dataset(directory / "results.nc") as data:
+        return data.load()
+
+
+def assert_same(one, other):
+    """Bit for bit, but for what names itself after a clock, a rank or a host."""
+    assert one.variables.keys() == other.variables.keys()
+    for name in one.variables:
+        if not any(word in name for word in ("wall", "rank", "host")):
+            np.testing.assert_array_equal(one[name].values, other[name].values, err_msg=name, strict=True)
+
+
+def wait_for(condition, otherwise):
+    deadline = time.monotonic() + 30
+    while not condition():
+        assert time.monotonic() < deadline, otherwise
+        time.sleep(0.02)
+
+
+def wait_for_records(directory, count):
+    wait_for(lambda: len(list(directory.glob("records/realization-*.h5"))) >= count, "no records appear")
+
+
+def wait_for_the_end(directory):
+    """Ranks outlive a killed mpirun by a moment."""
+    wait_for(lambda: not DirectoryLock(directory).is_held(), "rank 0 lives on")
+
+
+def wait_for_attempts(directory):
+    attempts = directory / "attempts"
+    wait_for(lambda: any(path.read_text() for path in attempts.glob("rank-*")), "no realization is begun")

@@ -1,0 +1,154 @@
+"""A fault of the machine costs no realization its place in the data, and nothing hangs.
+
+Campaigns run under the environment's own mpirun, with a stand-in for the solver (`helpers/stand_in.py`).
+"""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from stand_in_campaign import MPIRUN, assert_same, campaign, dataset, dataset_of, start, wait_for, wait_for_records
+
+from campaign.exit_codes import ExitCode
+from campaign.running.standing import conclusion, status
+
+pytestmark = pytest.mark.skipif(not MPIRUN.exists(), reason="needs the mpich extra")
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory):
+    return dataset_of(tmp_path_factory.mktemp("alone") / "out", ranks=1)
+
+
+def test_a_sick_rank_takes_no_more_work_and_leaves_no_trace(alone, tmp_path):
+    code, output = campaign(tmp_path / "out", ranks=3, sick=1)
+    assert code == 0, output
+    assert "No more work for rank 1 on" in output
+    assert "it fails before its first realization: OSError: [Errno 28] No space left" in output
+    assert_same(dataset(tmp_path / "out"), alone)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_memory_that_one_realization_lacks_is_no_status(alone, tmp_path, ranks):
+    """It is handed out last again, then the campaign ends so that it can go on; all others are kept."""
+    code, output = campaign(tmp_path / "out", ranks=ranks, memory=3)
+    assert code == 75, output
+    assert "realization 3 ended in MemoryError: 64 GiB are wanted" in output
+    assert "Traceback" not in output
+    assert_same(dataset_of(tmp_path / "out"), alone)
+
+
+def test_a_machine_on_which_nothing_works_records_nothing(alone, tmp_path):
+    code, output = campaign(tmp_path / "out", ranks=1, sick=0)
+    assert code == 75, output
+    assert not list(tmp_path.glob("out/records/*.h5"))
+    assert_same(dataset_of(tmp_path / "out"), alone)
+
+
+def test_a_ground_that_cannot_be_prepared_for_want_of_memory_can_be_later(tmp_path):
+    code, output = campaign(tmp_path / "out", 4, ranks=2, no_memory_to_prepare=1)
+    assert code == 75, output
+    assert "the ground could not be prepared: MemoryError: 64 GiB are wanted" in output
+    assert "Traceback" not in output
+    assert conclusion(tmp_path / "out") is ExitCode.RESUMABLE
+
+
+def test_what_crashed_is_run_again_when_asked_for(alone, tmp_path):
+    directory = tmp_path / "out"
+    assert campaign(directory, **{"raise": 7})[0] == 0
+    assert campaign(directory)[0] == 0
+    assert np.isnan(dataset(directory).final_runout[7])
+    assert_same(dataset_of(directory, retry="crashed timeout"), alone)
+
+
+def test_a_raised_timeout_runs_again_what_took_too_long(tmp_path):
+    directory = tmp_path / "out"
+    code, output = campaign(directory, 4, overrides=["campaign.realization_timeout=0.05 s"], seconds=0.3)
+    assert code == 3, output
+    assert campaign(directory, 4, overrides=["campaign.realization_timeout=0.04 s"])[0] == 3
+    assert_same(dataset_of(directory, 4), dataset_of(tmp_path / "alone", 4, 1))
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_a_realization_that_hangs_is_ended_and_skipped_after_the_second_time(tmp_path, ranks):
+    """Also where rank 0 itself hangs, and is ended by its own thread."""
+    directory, short = tmp_path / "out", ["campaign.realization_timeout=0.5 s"]
+    for _ in range(2):
+        code, output = campaign(directory, 12, ranks, short, hang=3, grace=4)
+        assert code == 75, output
+        assert re.search(r"Rank \d does not come back from realization 3, begun \d+ s ago", output), output
+        assert "Traceback" not in output
+    code, output = campaign(directory, 12, ranks, short, hang=3, grace=4)
+    assert code == 0, output
+    assert "Realization 3 is recorded as crashed" in output
+    assert "no answer within 5 s" in str(dataset(directory).reason[3].values)
+
+
+@pytest.mark.parametrize("number", [signal.SIGUSR1, signal.SIGTERM])
+def test_a_signal_ends_the_preparation_at_once(tmp_path, number):
+    directory = tmp_path / "out"
+    process = start(directory, 4, 2, prepare_seconds=50)
+    wait_for(lambda: (directory / ".preparing").exists(), "nothing is begun")
+    begin = time.monotonic()
+    os.kill(process.pid, number)
+    output, _ = process.communicate(timeout=40)
+    assert process.returncode == 75, output
+    assert time.monotonic() - begin < 20
+    assert "before its first realization" in output
+    assert "stopped early (asked to stop)" in status(directory)
+    assert conclusion(directory) is ExitCode.RESUMABLE
+
+
+def test_a_rank_that_vanishes_is_not_a_success_whatever_the_launcher_says(tmp_path):
+    """Under MPICH the exit code of the launcher is 0 then."""
+    directory = tmp_path / "out"
+    campaign(directory, ranks=2, seconds=0.02, vanish=9)
+    assert conclusion(directory) is ExitCode.RESUMABLE
+    assert campaign(directory)[0] == conclusion(directory) == ExitCode.DONE
+
+
+def test_a_directory_that_is_moved_away_can_go_on_where_it_is(alone, tmp_path):
+    process = start(tmp_path / "out", ranks=2, seconds=0.05)
+    wait_for_records(tmp_path / "out", 6)
+    (tmp_path / "out").rename(tmp_path / "moved")
+    output, _ = process.communicate(timeout=40)
+    assert process.returncode == 75, output
+    assert "was moved away" in output
+    assert "Traceback" not in output
+    assert not (tmp_path / "out").exists()
+    assert_same(dataset_of(tmp_path / "moved"), alone)
+
+
+BREAKING = """
+import os, sys
+class Broken:
+    def find_spec(self, name, path, target=None):
+        rank = os.environ.get("PMI_RANK", os.environ.get("OMPI_COMM_WORLD_RANK"))
+        if name == {module!r} and rank == "1":
+            raise {error}
+sys.meta_path.insert(0, Broken())
+"""
+
+
+@pytest.mark.parametrize(
+    ("module", "error"),
+    [
+        ("numpy", "ImportError('a file is missing')"),
+        ("campaign.report.page", "SystemExit(0)"),
+        ("campaign.simulation.ground", "KeyboardInterrupt"),
+    ],
+)
+def test_an_import_that_fails_on_one_rank_ends_all(tmp_path, module, error):
+    (tmp_path / "sitecustomize.py").write_text(BREAKING.format(module=module, error=error))
+    path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
+    command = [MPIRUN, "-n", "2", sys.executable, "-m", "campaign", "run", "ma2023", "--out", str(tmp_path / "out")]
+    result = subprocess.run(
+        command, env=os.environ | {"PYTHONPATH": path}, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert result.returncode == 70
+    assert not list(tmp_path.glob("out/records/*.h5"))
