@@ -139,7 +139,7 @@ sys.meta_path.insert(0, Broken())
     ("module", "error"),
     [
         ("numpy", "ImportError('a file is missing')"),
-        ("campaign.report.page", "SystemExit(0)"),
+        ("campaign.running.runner", "SystemExit(0)"),
         ("campaign.simulation.ground", "KeyboardInterrupt"),
     ],
 )
