@@ -87,10 +87,16 @@ def test_bars_that_have_come_apart_are_noticed(bars):
 
 @pytest.mark.slow
 def test_finer_cells_tell_the_same():
-    """So the front is wrong for another reason than the cells."""
-    fine = collapse('numerics.cell="2.5 mm"')
-    assert fine.front == pytest.approx(0.510, abs=0.01)
-    assert surface_error(fine) < 5e-3
+    """So the front is wrong for another reason than the cells.
+
+    The front is a single loose particle, which scatters by 6 mm (standard deviation of 16 runs) when round-off or the
+    time step changes. The median of five runs scatters by 3 mm: three such are 10 mm, a false alarm in 1 of 300.
+    """
+    fine = [
+        collapse('numerics.cell="2.5 mm"', f"numerics.courant={courant}") for courant in (0.58, 0.59, 0.6, 0.61, 0.62)
+    ]
+    assert np.median([run.front for run in fine]) == pytest.approx(0.510, abs=0.01)
+    assert surface_error(fine[0]) < 5e-3
 
 
 @pytest.mark.slow
