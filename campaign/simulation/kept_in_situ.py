@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from campaign.files import clear_temporaries
 from campaign.kept_arrays import keep, kept
 from solver.compile_cache import source_digest
 from solver.in_situ import in_situ_state, loading_model
@@ -39,6 +40,7 @@ def kept_in_situ_state(model: Model, from_nothing: bool, directory: Path | None)
         return Particles(**found)
     state = in_situ_state(model, from_nothing)
     with contextlib.suppress(OSError):
+        clear_temporaries(path.parent)
         keep(path, key, state._asdict())
     return state
 

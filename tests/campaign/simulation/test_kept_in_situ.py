@@ -65,6 +65,15 @@ def test_a_damaged_file_is_never_trusted(tmp_path, monkeypatch, damage):
     assert path.read_bytes() == whole
 
 
+def test_what_a_killed_write_left_is_cleared(tmp_path, monkeypatch):
+    left = tmp_path / IN_SITU / ".state.arrays.another-host.1"
+    left.parent.mkdir()
+    left.touch()
+    _, was_computed = asked(tmp_path, monkeypatch)
+    assert was_computed
+    assert only_file(tmp_path) != left
+
+
 def test_a_whole_file_of_another_ground_is_not_taken(tmp_path, monkeypatch):
     other = model_of(small_scene("soil.unit_weight=18 kN/m^3"))
     for name, model in (("ours", MODEL), ("theirs", other)):
