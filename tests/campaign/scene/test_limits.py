@@ -76,5 +76,7 @@ def test_output_intervals_shorter_than_the_time_step_decide_the_steps():
 
 def test_damping_is_estimated_as_it_was_measured():
     """A flip of 0.9999 took 0.00096 of the work of gravity on cells of 1 m, at a Courant number of 0.6."""
-    assert pic_loss(load_scene("ma2023", ["numerics.flip=0.9999", "numerics.courant=0.6"])) == pytest.approx(0.00096, rel=0.1)
+    assert pic_loss(load_scene("ma2023", ["numerics.flip=0.9999", "numerics.courant=0.6"])) == pytest.approx(
+        0.00096, rel=0.1
+    )
     assert pic_loss(load_scene("ma2023")) == 0.0
