@@ -37,6 +37,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = sys.argv[1:] if arguments is None else list(arguments)
     try:
         return _carry_out(parser().parse_args(given or DEFAULT))
+    except BrokenPipeError:  # whoever watched has seen enough
+        return ExitCode.DONE
     except KeyboardInterrupt:  # as long as a campaign does not listen to it, which then ends in order
         complain("Interrupted.")
         return ExitCode.INTERRUPTED
@@ -53,8 +55,6 @@ def _carry_out(options: argparse.Namespace) -> ExitCode:
         if str(refusal):
             complain(refusal)
         return ExitCode.REFUSED
-    except BrokenPipeError:  # whoever watched has seen enough
-        return ExitCode.DONE
     return code
 
 
