@@ -17,6 +17,7 @@ from solver.pool import (
     deposit_state_pool,
     empty_state_pool,
     no_state_pool,
+    own_mean_stress,
     settle_and_pool,
 )
 from solver.scheme import USF, USL, CellScheme
@@ -132,7 +133,7 @@ def yield_tile(tiles, tile, grid, ledger, laws, scheme, gravity, dt):
             fall = fall + moved.fall
             shares = shares_of(moved.x, moved.y, row, column, grid)
             volume = where(moved.stays, volume, 0.0)
-        sums = add_to_state_pool(sums, shares, volume, 0.5 * (new.stress_xx + new.stress_yy), yielded)
+        sums = add_to_state_pool(sums, shares, volume, own_mean_stress(new), yielded)
         block = tiles.following[block]
     enter(ledger, work, gravity, fall)
     deposit_state_pool(grid, row, column, sums)

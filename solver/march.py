@@ -46,7 +46,7 @@ class March:
         self.steps = 0
         self.reason = ""
         self._tiles = fill_tiles(self.particles, self.grid, self.work.tiles)
-        self._take_steps(0, 0.0)  # the grid shows the start
+        self._take_steps(0, 0.0, are_new=True)  # the grid shows the start
 
     @property
     def reference(self) -> Particles:
@@ -113,11 +113,11 @@ class March:
             return self._left_or_diverged()
         return None
 
-    def _take_steps(self, steps: int, dt: float) -> int:
+    def _take_steps(self, steps: int, dt: float, are_new: bool = False) -> int:
         gravity, rate = self._gravity()
         model = self.model
         self._tiles, taken = take_steps(
-            self._tiles, self.grid, self.work, model.laws, model.scheme, gravity, rate, dt, steps, self.steps == 0
+            self._tiles, self.grid, self.work, model.laws, model.scheme, gravity, rate, dt, steps, are_new
         )
         read_tiles(self._tiles, self.particles)
         return int(taken)
