@@ -197,7 +197,7 @@ class Campaign(Section):
     minimum: Annotated[Count, must("be 10 or more, or no interval on a variance means much", lambda n: n >= 10)] = 100
     block: PositiveCount = 25
     max_failed_fraction: Fraction = 0.1
-    discretisation_pairs: Count = 4
+    discretisation_pairs: Count = 8
     sensitivity_pairs: Count = 4
     realization_timeout: PositiveTime = 3600.0
 
