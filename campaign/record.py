@@ -34,13 +34,13 @@ FAILED = frozenset({Status.timeout, Status.diverged, Status.left_domain, Status.
 """Without a result: counted, reported, and never part of a statistic."""
 
 SLID = frozenset({Status.slid, Status.not_settled, Status.reached_wall})
-"""Slides, whose run-out is a lower bound where they had not settled yet or a wall of the model hindered them."""
+"""Slides, whose run-out is a lower bound where the front had not settled yet or a wall of the model hindered it."""
 
 UNHINDERED = SLID - {Status.reached_wall}
 """Slides whose run-out is the slope's and not that of the model's walls."""
 
 LOWER_BOUND = SLID - {Status.slid}
-"""Slides that were still on their way, or were stopped by a wall: they may come farther than they did."""
+"""Slides whose front was still on its way, or was stopped by a wall: they may come farther than they did."""
 
 USABLE = SLID | {Status.no_slide}
 """With a result: a slope that does not slide has a run-out of zero."""

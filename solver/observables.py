@@ -93,10 +93,10 @@ def is_at_surface(start: Particles, spacing: float) -> np.ndarray:
     return highest
 
 
-def retrogression(
-    particles: Particles, start: Particles, surface: Surface, criteria: SlideCriteria, spacing: float
+def moved_behind_crest(
+    particles: Particles, start: Particles, surface: Surface, farther_than: float, spacing: float
 ) -> float:
-    """Return how far behind the crest the ground surface belongs to the sliding mass, in m (0 if nowhere).
+    """Return how far behind the crest the ground surface has moved, in m (0 if nowhere).
 
     Parameters
     ----------
@@ -104,12 +104,13 @@ def retrogression(
         Now and before the slide.
     surface : Surface
         Before the slide.
-    criteria : SlideCriteria
+    farther_than : float
+        Displacement in m from which on it counts.
     spacing : float
         Distance of particles on their lattice in m.
     """
-    slid = is_displaced(particles, start, criteria) & is_at_surface(start, spacing)
-    return max(0.0, surface.crest_x - float(start.x[slid].min() - 0.5 * spacing)) if slid.any() else 0.0
+    moved = (displacement(particles, start) > farther_than) & is_at_surface(start, spacing)
+    return max(0.0, surface.crest_x - float(start.x[moved].min() - 0.5 * spacing)) if moved.any() else 0.0
 
 
 def kinetic_energy(particles: Particles) -> float:

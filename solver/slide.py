@@ -29,6 +29,11 @@ class SlideCriteria(NamedTuple):
         """Time in s for which a slide must have been quiet to be over."""
         return 0.2 * sqrt(self.failed)
 
+    @property
+    def front_time(self) -> float:
+        """Time in s over which the speed of a front is seen."""
+        return sqrt(self.failed)
+
 
 PAPER = SlideCriteria(displaced=0.1, failed=1.0, front_area=0.25, front="tip")
 """The displacements and the front of Ma, Rezania and Mousavi Nezhad, section 3.2."""

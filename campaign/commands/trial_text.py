@@ -28,7 +28,8 @@ def _outcome(made: Trial) -> str:
         return f"The slope stands: nothing moves farther than {farthest:.2g} m."
     if not made.slides:
         return f"The simulation fails: {record.reason}"
-    how = f"comes to rest after {made.rest:.2g} s" if isfinite(made.rest) else "still moves at the end of the run"
+    moves = "still moves at the end of the run" + (", behind its front" if record.status is Status.slid else "")
+    how = f"comes to rest after {made.rest:.2g} s" if isfinite(made.rest) else moves
     where = f"its front is {made.runout:.3g} m beyond the toe, at x = {made.front:.4g} m"
     return f"The slope slides and {how}; {where}.{_receptors(made)}"
 

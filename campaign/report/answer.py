@@ -18,9 +18,9 @@ from campaign.statistics.wording import chance, chance_of_slide, chances, metres
 from campaign.terminal import counted
 
 OUTCOMES = {
-    Status.slid: "slid and came to rest",
+    Status.slid: "slid, and the front came to rest",
     Status.no_slide: "did not slide (nothing displaced farther than slide.failed)",
-    Status.not_settled: "still moving at the end time; the run-out is a lower bound",
+    Status.not_settled: "slid, and the front may have come farther after the end time; the run-out is a lower bound",
     Status.reached_wall: "slid as far as a wall of the model; the run-out is a lower bound",
     Status.timeout: "failed: took too long",
     Status.diverged: "failed: diverged",

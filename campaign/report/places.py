@@ -1,15 +1,19 @@
 """What the page says in tables: how the ground moves, and what comes to the places asked about."""
 
-from collections.abc import Iterator
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
 
 from campaign.report.wording import bounds, number
 from campaign.results.results import Results
+from campaign.scene.ground_surface import surface_of
 from campaign.scene.sections import Receptor
 from campaign.statistics.intervals import Interval, Sample, quantile_interval
 from campaign.statistics.receptors import (
+    AHEAD,
     EFFECTS,
     QUANTILES,
     REACHED,
@@ -20,20 +24,26 @@ from campaign.statistics.wording import chance, chances
 from campaign.terminal import counted
 
 MOVEMENT = {
-    "sliding_volume": "ground that slides, per metre of width",
-    "retrogression": "length lost behind the crest",
+    "sliding_volume": "ground that moves by more than {displaced:g} m, per metre of width",
+    "retrogression": "length lost behind the crest, moved by more than {failed:g} m",
+    "influence_distance": "length behind the crest that moves by more than {displaced:g} m",
 }
-"""Scalars of a slide, and what they are called."""
+"""Scalars of a slide, and what they are called with the criteria of `slide`."""
+
+BEHIND_CREST = ("retrogression", "influence_distance")
 
 REST = "time from release to rest"
 
 STILL_MOVING = 1e99
 """Time in s that stands for a rest after the end of the run, so that quantiles know of it."""
 
-ARRIVAL = "arrival after the release"
+ARRIVALS = {
+    "moved_ground_arrival": "arrival of any moved ground after the release",
+    "front_arrival": "arrival of the front",
+}
+"""When something comes, and what that is called."""
 
-PUSHED = ("receptor_max_depth", "receptor_max_velocity", "receptor_deposit")
-"""What is told of ground that is pushed ahead of the front."""
+RISE = "receptor_deposit"
 
 
 class Distribution(NamedTuple):
@@ -59,7 +69,19 @@ class Reach(NamedTuple):
 
 
 class Place(NamedTuple):
-    """A receptor: where it is, how probable it is that something comes, and what comes, with and without a front."""
+    """A receptor: where it is, how probable it is that something comes, and what comes with the front and ahead of it.
+
+    Attributes
+    ----------
+    slides : int
+        In which the front comes, and of which the effects are.
+    effects : list of Distribution
+        From the arrival of the front on.
+    pushed : str
+        In which slides ground is pushed or thrown here ahead of the front, "" if in none.
+    ahead : list of Distribution
+        What that ground does.
+    """
 
     name: str
     where: str
@@ -67,16 +89,38 @@ class Place(NamedTuple):
     slides: int
     effects: list[Distribution]
     pushed: str
+    ahead: list[Distribution]
 
 
 def movement(results: Results) -> list[Distribution]:
     """Return how the ground moves in the slides."""
     rows = [
-        distribution(name, results.of_slides(quantity), results.data[quantity].units, results.confidence)
+        distribution(
+            name.format_map(dict(results.scene.slide)) + _at_least(results, quantity),
+            results.of_slides(quantity),
+            results.data[quantity].units,
+            results.confidence,
+        )
         for quantity, name in MOVEMENT.items()
         if np.isfinite(results.of_slides(quantity)).any()
     ]
     return [*rows, _rest(results)] if results.outcomes.slides else rows
+
+
+def _at_least(results: Results, quantity: str) -> str:
+    """Say in how many slides there would be more of a quantity, "" if in none.
+
+    Ground behind the front may still move at the end, and what moves behind the crest may reach the wall there.
+    """
+    values, moves = results.of_slides(quantity), np.isnan(results.of_slides("settle_time"))
+    wall = surface_of(results.scene.geometry).crest_x if quantity in BEHIND_CREST else np.inf
+    at_wall = values > wall - 0.5 * results.scene.numerics.cell
+    causes = {
+        "to the wall of the model": np.isfinite(values) & at_wall,
+        "still moving at the end": np.isfinite(values) & moves & ~at_wall,
+    }
+    told = [f"in {counted(n, 'slide')} {why}" for why, which in causes.items() if (n := int(np.count_nonzero(which)))]
+    return f" (at least: {' and '.join(told)})" if told else ""
 
 
 def _rest(results: Results) -> Distribution:
@@ -131,27 +175,30 @@ def _place(results: Results, receptor: Receptor, reach: list[ReceptorEstimate]) 
         for each in reach
         if each.receptor == name
     ]
-    reached = results.data.sel(receptor=name)["front_reaches"].values == 1.0
+    data = results.data.sel(receptor=name)
+    with_front, with_ahead = data["front_reaches"].values == 1.0, data["receptor_ahead_depth"].values > 0.0
     where = f"x = {near:g} m" if near == far else f"x = {near:g} to {far:g} m"
-    effects = list(_effects(results, name, reached)) if reached.any() else []
-    return Place(name, where, probabilities, int(np.count_nonzero(reached)), effects, _pushed(results, name))
+    effects = _distributions(data, ARRIVALS | EFFECTS, with_front, results.confidence)
+    ahead = _distributions(data, AHEAD, with_ahead, results.confidence)
+    alone = {RISE: f"{EFFECTS[RISE]} where the front does not come"}
+    ahead += _distributions(data, alone, with_ahead & ~with_front, results.confidence)
+    slides, pushed = int(np.count_nonzero(with_front)), _pushed(with_ahead, with_front)
+    return Place(name, where, probabilities, slides, effects, pushed, ahead)
 
 
-def _pushed(results: Results, receptor: str) -> str:
-    """Say what comes in slides whose front does not get there, "" if nothing does."""
-    data = results.data.sel(receptor=receptor)
-    without_front = (data["moved_ground_reaches"].values == 1.0) & (data["front_reaches"].values == 0.0)
-    if not without_front.any():
+def _pushed(with_ahead: NDArray[np.bool_], with_front: NDArray[np.bool_]) -> str:
+    """Say in which slides ground comes ahead of the front, "" if in none."""
+    slides, alone = int(np.count_nonzero(with_ahead)), int(np.count_nonzero(with_ahead & ~with_front))
+    if not slides:
         return ""
-    depth, velocity, rise = (float(np.median(data[each].values[without_front])) for each in PUSHED)
-    return (
-        f"In {counted(int(np.count_nonzero(without_front)), 'slide')} ground gets here that is pushed or thrown ahead "
-        f"of the front, and not the front: in half of them {number(depth, 'm')} deep or more and "
-        f"{number(velocity, 'm/s')} fast, with a final rise of {number(rise, 'm')} or more."
-    )
+    told = f"In {counted(slides, 'slide')} with ground here that is pushed or thrown ahead of the front"
+    return f"{told}, which in {alone:,} of them does not come" if alone else told
 
 
-def _effects(results: Results, receptor: str, reached: np.ndarray) -> Iterator[Distribution]:
-    data = results.data.sel(receptor=receptor)
-    for variable, name in ({"front_arrival": ARRIVAL} | EFFECTS).items():
-        yield distribution(name, data[variable].values[reached], data[variable].units, results.confidence)
+def _distributions(
+    data: xr.Dataset, named: Mapping[str, str], where: NDArray[np.bool_], confidence: float
+) -> list[Distribution]:
+    """Return what some quantities are in some realizations; nothing without any."""
+    if not where.any():
+        return []
+    return [distribution(name, data[each].values[where], data[each].units, confidence) for each, name in named.items()]

@@ -15,6 +15,7 @@ from solver import observables
 from solver.history import MarchHistory
 from solver.model import Model
 from solver.particles import Particles
+from solver.stopping_distance import farther_advance
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,18 @@ class Ending:
     def half_spacing(self) -> float:
         """Half the distance between particles on their lattice [m]."""
         return 0.5 * self.model.particle_spacing
+
+    @cached_property
+    def farther_advance(self) -> float:
+        """How much farther the front may come after the end [m]; NaN where nothing bounds it."""
+        return farther_advance(self.history, self.model.surface, self.model.criteria)
+
+    def moved_behind_crest(self, farther_than: float) -> float:
+        """Return how far behind the crest the ground surface is displaced farther than that [m]."""
+        model = self.model
+        return observables.moved_behind_crest(
+            self.particles, self.start, model.surface, farther_than, model.particle_spacing
+        )
 
     @cached_property
     def edges(self) -> Array:

@@ -75,6 +75,14 @@ QUANTITIES: dict[str, Measured] = {
         "final advance of the front beyond which slide.front_area of slid material lies",
         compute=lambda end: end.history.runout_mass[-1],
     ),
+    "farther_advance": Measured(
+        (),
+        "m",
+        "how much farther the front would come at most after the end of the run, v^2 / (2 g f) with its speed or that "
+        "of the sliding ground, and the residual strength over the weight for f; 0 at rest; missing where it is still "
+        "faster than half of its largest speed, a wall was in the way, or the front is a tip",
+        compute=lambda end: end.farther_advance,
+    ),
     "sliding_volume": Measured(
         (),
         "m3/m",
@@ -90,10 +98,14 @@ QUANTITIES: dict[str, Measured] = {
     "retrogression": Measured(
         (),
         "m",
+        "distance behind the crest to which the ground surface is lost: displaced farther than slide.failed",
+        compute=lambda end: end.moved_behind_crest(end.model.criteria.failed),
+    ),
+    "influence_distance": Measured(
+        (),
+        "m",
         "distance behind the crest to which the ground surface is displaced farther than slide.displaced",
-        compute=lambda end: observables.retrogression(
-            end.particles, end.start, end.model.surface, end.model.criteria, end.model.particle_spacing
-        ),
+        compute=lambda end: end.moved_behind_crest(end.model.criteria.displaced),
     ),
     "base_contact": Measured(
         (),

@@ -10,11 +10,13 @@ from campaign.simulation.flags import flags
 from campaign.simulation.quantities import UNITS, measure
 from campaign.simulation.receptors import NO_RECEPTORS, ReceptorLog
 from campaign.simulation.solver_model import Array
-from solver.history import MarchEnd, MarchHistory
+from solver.history import MarchEnd
 from solver.march import March, march_to_rest
 from solver.model import Model
 from solver.particles import Particles
-from solver.slide import SlideCriteria
+
+NOTICEABLE = 0.02
+"""Share of a run-out below which more of it is of no use to an engineer."""
 
 
 def never() -> bool:
@@ -75,15 +77,19 @@ def simulate(
             log.observe(march)
 
     history = march_to_rest(model, start, times, watch, settled)
-    values = measure(Ending(model, history.reference, history, begin, log, field_map))
+    ending = Ending(model, history.reference, history, begin, log, field_map)
+    values = measure(ending)
     reason = history.reason if history.has_failed else flags(model, history.walls, values)
-    return Record(
-        realization, status_of(history, model.criteria), reason, values, {name: UNITS[name] for name in values}
-    )
+    return Record(realization, status_of(ending), reason, values, {name: UNITS[name] for name in values})
 
 
-def status_of(history: MarchHistory, criteria: SlideCriteria) -> Status:
-    """Return how a march ended in the terms of the dataset."""
+def status_of(ending: Ending) -> Status:
+    """Return how a march ended in the terms of the dataset.
+
+    A front that cannot come farther by as much as matters has come to its end, though the ground behind it may still
+    move, as it does for long where a brittle slope retrogresses.
+    """
+    history, criteria = ending.history, ending.model.criteria
     if history.end is MarchEnd.DIVERGED:
         return Status.diverged
     if history.end is MarchEnd.LEFT_DOMAIN:
@@ -92,4 +98,5 @@ def status_of(history: MarchHistory, criteria: SlideCriteria) -> Status:
         return Status.no_slide
     if any(history.walls):
         return Status.reached_wall
-    return Status.slid if history.end is MarchEnd.AT_REST else Status.not_settled
+    matters = max(criteria.displaced, NOTICEABLE * float(history.runout_mass[-1]))
+    return Status.slid if ending.farther_advance <= matters else Status.not_settled

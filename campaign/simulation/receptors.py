@@ -3,6 +3,12 @@
 A receptor is looked at through columns, at least one cell wide, because the mesh sees nothing narrower: a point through
 one that has it in its middle, a range through as many as it is cells long. What is told of a range is the largest of
 its columns. All of it is seen at the output times.
+
+Two kinds of ground come: that of the slide, from the arrival of its front on, and ahead of it ground that is pushed or
+thrown. The largest of either is told for itself, because a clod that flies ahead is fast and weighs little.
+
+Velocities are those at which ground has moved since the last output time. The particles' own hold differences inside a
+cell that move nothing (see `solver.observables.resolved_kinetic_energy`), of metres per second in a deposit at rest.
 """
 
 import numpy as np
@@ -21,6 +27,8 @@ NO_RECEPTORS: Array = np.empty((0, 2))
 
 PLACE = ("receptor",)
 FREE = "of the free flow, with no structure in its way"
+COME = "from the arrival of the front on, 0 where it does not come"
+AHEAD = "of ground pushed or thrown ahead, before the front arrives or where it does not come"
 
 QUANTITIES: dict[str, Quantity] = {
     "front_reaches": Quantity(
@@ -40,20 +48,41 @@ QUANTITIES: dict[str, Quantity] = {
         PLACE, "m", "largest final rise of the ground surface at the receptor; negative where ground is lost"
     ),
     "receptor_max_depth": Quantity(
-        PLACE, "m", "largest vertical thickness of moved ground at the receptor, pushed ground below it included"
+        PLACE,
+        "m",
+        f"largest vertical thickness of moved ground at the receptor, pushed ground below it included, {COME}",
     ),
     "receptor_max_velocity": Quantity(
-        PLACE, "m/s", "largest velocity of moved ground at the receptor, averaged over its depth"
+        PLACE, "m/s", f"largest velocity of moved ground at the receptor, averaged over its depth, {COME}"
     ),
     "receptor_momentum_flux": Quantity(
-        PLACE, "N/m", f"largest momentum flux rho h v^2 at the receptor, per metre run, {FREE}"
+        PLACE, "N/m", f"largest momentum flux rho h v^2 at the receptor, per metre run, {FREE}, {COME}"
     ),
-    "receptor_impact_pressure": Quantity(PLACE, "Pa", f"largest impact pressure rho v^2 at the receptor, {FREE}"),
+    "receptor_impact_pressure": Quantity(
+        PLACE, "Pa", f"largest impact pressure rho v^2 at the receptor, {FREE}, {COME}"
+    ),
+    "receptor_ahead_depth": Quantity(PLACE, "m", f"largest vertical thickness at the receptor {AHEAD}"),
+    "receptor_ahead_velocity": Quantity(
+        PLACE, "m/s", f"largest velocity at the receptor, averaged over the depth, {AHEAD}"
+    ),
+    "receptor_ahead_momentum_flux": Quantity(
+        PLACE, "N/m", f"largest momentum flux rho h v^2 at the receptor, per metre run, {AHEAD}"
+    ),
+    "receptor_ahead_impact_pressure": Quantity(
+        PLACE, "Pa", f"largest impact pressure rho v^2 at the receptor, {AHEAD}"
+    ),
     "receptor_depth": Quantity(
-        (*PLACE, "time"), "m", "vertical thickness of moved ground at the receptor, pushed ground included", "f4"
+        (*PLACE, "time"),
+        "m",
+        "vertical thickness of moved ground at the receptor, pushed or thrown ground included",
+        "f4",
     ),
     "receptor_velocity": Quantity(
-        (*PLACE, "time"), "m/s", "velocity of moved ground at the receptor, averaged over its depth", "f4"
+        (*PLACE, "time"),
+        "m/s",
+        "velocity of moved ground at the receptor since the last output time, averaged over its depth, pushed or "
+        "thrown ground included",
+        "f4",
     ),
 }
 """What is measured at each receptor."""
@@ -97,6 +126,7 @@ class ReceptorLog:
         self._model, self._times, self._seen = model, times, 0
         self._flow = Flow(*np.full((4, len(stretches), times.size), np.nan))
         self._front, self._moved = np.zeros((2, len(stretches), times.size), dtype=bool)
+        self._last: Particles | None = None
 
     def observe(self, march: March) -> None:
         """Look at the march at the next output time."""
@@ -104,7 +134,7 @@ class ReceptorLog:
         self._seen += 1
         reference = march.reference
         moved = observables.is_displaced(march.particles, reference, model.criteria)
-        flow = self._through(march.particles, reference, moved)
+        flow = self._through(self._as_it_moved(march.particles), reference, moved)
         for series, now in zip(self._flow, flow, strict=True):
             series[:, k] = self._largest(now)
         self._front[:, k] = self._has_front(march.particles, reference, moved)
@@ -122,20 +152,37 @@ class ReceptorLog:
             series[:, self._seen :] = series[:, self._seen - 1 : self._seen]
         every = np.ones(start.x.size, dtype=bool)
         rise = self._through(deposit, start, every).depth - self._through(start, start, every).depth
-        depth, velocity, momentum_flux, impact_pressure = self._flow
+        has_come = np.logical_or.accumulate(self._front, axis=1)
+        come, ahead = (
+            Flow(*(series.max(axis=1, where=when, initial=0.0) for series in self._flow))
+            for when in (has_come, ~has_come)
+        )
         return {
             "front_reaches": self._front.any(axis=1).astype(float),
             "front_arrival": self._first_time(self._front),
             "moved_ground_reaches": self._moved.any(axis=1).astype(float),
             "moved_ground_arrival": self._first_time(self._moved),
             "receptor_deposit": self._largest(rise),
-            "receptor_max_depth": depth.max(axis=1),
-            "receptor_max_velocity": velocity.max(axis=1),
-            "receptor_momentum_flux": momentum_flux.max(axis=1),
-            "receptor_impact_pressure": impact_pressure.max(axis=1),
-            "receptor_depth": depth,
-            "receptor_velocity": velocity,
+            "receptor_max_depth": come.depth,
+            "receptor_max_velocity": come.velocity,
+            "receptor_momentum_flux": come.momentum_flux,
+            "receptor_impact_pressure": come.impact_pressure,
+            "receptor_ahead_depth": ahead.depth,
+            "receptor_ahead_velocity": ahead.velocity,
+            "receptor_ahead_momentum_flux": ahead.momentum_flux,
+            "receptor_ahead_impact_pressure": ahead.impact_pressure,
+            "receptor_depth": self._flow.depth,
+            "receptor_velocity": self._flow.velocity,
         }
+
+    def _as_it_moved(self, particles: Particles) -> Particles:
+        """Return the particles with the velocities at which they have moved since the last output time."""
+        last, k = self._last, self._seen - 1
+        self._last = particles._replace(x=particles.x.copy(), y=particles.y.copy())
+        if last is None:
+            return particles._replace(velocity_x=np.zeros_like(particles.x), velocity_y=np.zeros_like(particles.y))
+        since = self._times[k] - self._times[k - 1]
+        return particles._replace(velocity_x=(particles.x - last.x) / since, velocity_y=(particles.y - last.y) / since)
 
     def _through(self, particles: Particles, start: Particles, moved: NDArray[np.bool_]) -> Flow:
         return flow_through(particles, start, moved, 0.5 * self._model.particle_spacing, self.columns)

@@ -124,7 +124,7 @@ def short_ground(scene: Scene, made: Trial) -> Complaint | None:
 def short_run(scene: Scene, made: Trial) -> Complaint | None:
     """Warn of an end at which slides will not be at rest."""
     rest, end = made.rest, scene.numerics.end_time
-    if LATER * rest <= end:
+    if LATER * rest <= end or (not isfinite(rest) and made.record.status is Status.slid):
         return None
     slide = f"takes {rest:.2g} s to come to rest" if isfinite(rest) else "still moves then"
     longer = rounded_up(2.0 * (rest if isfinite(rest) else end))

@@ -29,7 +29,15 @@ EFFECTS = {
     "receptor_impact_pressure": "largest impact pressure",
     "receptor_deposit": "final rise of the ground",
 }
-"""What a slide does there, and what that is called."""
+"""What a slide does there once its front has come, and what that is called."""
+
+AHEAD = {
+    "receptor_ahead_depth": "largest depth",
+    "receptor_ahead_velocity": "largest velocity",
+    "receptor_ahead_momentum_flux": "largest momentum flux",
+    "receptor_ahead_impact_pressure": "largest impact pressure",
+}
+"""What ground does there that is pushed or thrown ahead, before the front comes or where it does not."""
 
 QUANTILES = {0.5: "median", 0.95: "95 % quantile"}
 
@@ -46,7 +54,8 @@ class ReceptorEstimate(NamedTuple):
     interval : Interval
     open_bounds : tuple of float
         Of a probability: what it would be if none, or all, of the realizations that leave it open had reached the
-        place, because they failed, were still moving at the end or were stopped by a wall; NaN for other numbers.
+        place, because they failed, could still come so far when the run ended or were stopped by a wall; NaN for
+        other numbers.
     """
 
     receptor: str
@@ -77,7 +86,7 @@ def receptor_estimates(data: xr.Dataset, confidence: float) -> list[ReceptorEsti
 
 
 def reach_probability(
-    reaches: Sample, may_go_on: NDArray[np.bool_], confidence: float
+    reaches: Sample, may_come: NDArray[np.bool_], confidence: float
 ) -> tuple[Interval, tuple[float, float]]:
     """Return the probability that something reaches a place, with its interval, and what the open realizations allow.
 
@@ -85,14 +94,14 @@ def reach_probability(
     ----------
     reaches : ndarray (n,)
         1 or 0 for each realization, NaN where it failed; these are left out.
-    may_go_on : bool ndarray (n,)
-        Whether it was still moving at the end, or a wall had stopped it.
+    may_come : bool ndarray (n,)
+        Whether it could still get there after the end, or had a wall not stopped it.
     confidence : float
         Of the interval, which is that of Clopper and Pearson (1934), Biometrika 26, 404-413.
     """
     failed = np.isnan(reaches)
     reached, n = int(np.nansum(reaches)), int(np.count_nonzero(~failed))
-    unknowns = int(np.count_nonzero(failed | (may_go_on & (reaches == 0.0))))
+    unknowns = int(np.count_nonzero(failed | (may_come & (reaches == 0.0))))
     if n == 0:
         return unknown(math.nan, 0), (math.nan, math.nan)
     return exact_interval(reached, n, confidence), (reached / len(reaches), (reached + unknowns) / len(reaches))
@@ -100,8 +109,9 @@ def reach_probability(
 
 def _of_one(name: str, data: xr.Dataset, confidence: float) -> Iterator[ReceptorEstimate]:
     may_go_on = np.isin(data["status"].values, list(LOWER_BOUND))
+    may_come = {"front_reaches": may_go_on & ~_stays_short(data), "moved_ground_reaches": may_go_on}
     for variable, called in REACHED.items():
-        interval, bounds = reach_probability(data[variable].values, may_go_on, confidence)
+        interval, bounds = reach_probability(data[variable].values, may_come[variable], confidence)
         yield ReceptorEstimate(name, called, "1", interval, bounds)
     is_reached = data["front_reaches"].values == 1.0
     for variable, called in EFFECTS.items():
@@ -109,3 +119,10 @@ def _of_one(name: str, data: xr.Dataset, confidence: float) -> Iterator[Receptor
         for probability, quantile in QUANTILES.items():
             interval = quantile_interval(values, probability, confidence)
             yield ReceptorEstimate(name, f"{quantile} of the {called}, where reached", data[variable].units, interval)
+
+
+def _stays_short(data: xr.Dataset) -> NDArray[np.bool_]:
+    """Whether the place is farther from the front than this could have come after the end, (realization,)."""
+    near = float(np.min(data["receptor_x_bounds"].values))
+    short: NDArray[np.bool_] = data["front_position"].values[:, -1] + data["farther_advance"].values < near
+    return short

@@ -144,20 +144,21 @@ def test_nodes_that_cannot_move_carry_no_energy():
     assert observables.resolved_kinetic_energy(grid) == pytest.approx(energy, rel=1e-12)
 
 
-def test_retrogression_is_how_far_the_surface_behind_the_crest_has_moved():
-    """The ground behind 7 m moves and the crest is at 10 m; what moves below the surface does not count."""
+def test_what_counts_behind_the_crest_is_how_far_its_surface_has_moved():
+    """It moves by 2 m behind x = 7 m, by 0.2 m behind 4 m, and the crest is at 10 m; ground below does not count."""
     ground = fill_ground(CUT, 0.5, 4, 2000.0)
     now = copy_particles(ground)
-    now.x[(ground.x > 7.0) & (ground.x < 10.0)] += 0.2
-    assert observables.retrogression(now, ground, CUT, PAPER, 0.25) == pytest.approx(3.0)
-    now.x[(ground.x > 2.0) & (ground.y < 7.0)] += 0.2
-    assert observables.retrogression(now, ground, CUT, PAPER, 0.25) == pytest.approx(3.0)
+    now.x[(ground.x > 4.0) & (ground.x < 10.0)] += 0.2
+    now.x[(ground.x > 7.0) & (ground.x < 10.0)] += 1.8
+    now.x[(ground.x > 2.0) & (ground.y < 7.0)] += 2.0
+    for farther_than, distance in ((PAPER.failed, 3.0), (PAPER.displaced, 6.0), (3.0, 0.0)):
+        assert observables.moved_behind_crest(now, ground, CUT, farther_than, 0.25) == pytest.approx(distance)
 
 
 def test_without_a_slide_and_within_the_face_nothing_is_lost_behind_the_crest():
     slope = Surface(np.array([0.0, 10.0, 14.0, 30.0]), np.array([8.0, 8.0, 4.0, 4.0]), 14.0)
     ground = fill_ground(slope, 0.5, 4, 2000.0)
-    assert observables.retrogression(ground, ground, slope, PAPER, 0.25) == 0.0
+    assert observables.moved_behind_crest(ground, ground, slope, 0.1, 0.25) == 0.0
     now = copy_particles(ground)
     now.x[(ground.x > 12.0) & (ground.x < 14.0)] += 0.2
-    assert observables.retrogression(now, ground, slope, PAPER, 0.25) == 0.0
+    assert observables.moved_behind_crest(now, ground, slope, 0.1, 0.25) == 0.0

@@ -15,7 +15,7 @@ from campaign.statistics.proportions import proportion_interval
 SCENE = small_scene()
 
 
-def results(runouts, statuses, raised=None, rest=None):
+def results(runouts, statuses, raised=None, rest=None, influence=None):
     """Return results of slides that raise ground by 1 m up to `raised` m from the toe, or as far as their fronts."""
     n, x = len(runouts), np.arange(0.0, 120.0, 0.5)
     reach = np.nan_to_num(np.array(runouts if raised is None else raised, dtype=float))
@@ -26,6 +26,11 @@ def results(runouts, statuses, raised=None, rest=None):
         "settle_time": ("realization", np.full(n, 5.0) if rest is None else np.array(rest)),
         "sliding_volume": ("realization", np.ones(n), {"units": "m3/m"}),
         "retrogression": ("realization", np.ones(n), {"units": "m"}),
+        "influence_distance": (
+            "realization",
+            np.broadcast_to(6.0 if influence is None else influence, n),
+            {"units": "m"},
+        ),
         "final_runout": ("realization", np.array(runouts, dtype=float)),
         "final_runout_mass": ("realization", np.array(runouts, dtype=float)),
         "status": ("realization", np.array([int(each) for each in statuses])),
@@ -131,3 +136,19 @@ def test_units_are_those_of_a_reader():
     assert bounds(Interval(1.0, 0.5, np.nan, 9), "m") == "at least 0.500 m"
     assert bounds(Interval(1.0, np.nan, np.nan, 1), "m") == "too few slides for an interval"
     assert unbroken("5 m and 3 men") == "5\u00a0m and 3 men"
+
+
+def test_where_there_would_be_more_behind_the_crest_it_is_a_lower_bound():
+    """The crest is 20 m long; in three slides ground moves up to its wall, in two others it still moves at the end."""
+    given = results(
+        np.arange(1.0, 21.0), [Status.slid] * 20, rest=[np.nan] * 2 + [5.0] * 18, influence=[6.0] * 17 + [20.0] * 3
+    )
+    volume, lost, moved, rest = places.movement(given)
+    told = "(at least: in 2 slides still moving at the end)"
+    assert volume.name == f"ground that moves by more than 0.1 m, per metre of width {told}"
+    assert lost.name == f"length lost behind the crest, moved by more than 1 m {told}"
+    assert moved.name == (
+        "length behind the crest that moves by more than 0.1 m (at least: in 3 slides to the wall of the model and in "
+        "2 slides still moving at the end)"
+    )
+    assert rest.name == places.REST

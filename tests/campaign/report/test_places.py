@@ -7,8 +7,9 @@ from small_campaign import small_scene
 
 from campaign.record import Status
 from campaign.report import headline
-from campaign.report.places import EFFECTS, places, reach_estimates
+from campaign.report.places import places, reach_estimates
 from campaign.results.results import Results
+from campaign.statistics.receptors import AHEAD, EFFECTS
 
 HOUSE = small_scene('receptor=[{name="house", x="42 m"}]')
 
@@ -17,15 +18,20 @@ def results(front, moved):
     """Return slides of which some reach a house with their front and some with any ground, 1, 2, 3, ... m deep."""
     n = len(front)
     numbers = np.arange(1.0, n + 1.0)[:, None]
-    by = ("realization", "receptor")
+    by, no_front = ("realization", "receptor"), 1.0 - np.array(front, dtype=float)[:, None]
     data = {
         "status": ("realization", np.full(n, int(Status.slid))),
         "front_reaches": (by, np.array(front, dtype=float)[:, None]),
         "moved_ground_reaches": (by, np.array(moved, dtype=float)[:, None]),
+        "front_position": (("realization", "time"), np.zeros((n, 2))),
+        "farther_advance": ("realization", np.zeros(n)),
         "front_arrival": (by, numbers, {"units": "s"}),
+        "moved_ground_arrival": (by, numbers - 1.0, {"units": "s"}),
         **{name: (by, numbers, {"units": "m"}) for name in EFFECTS},
+        **{name: (by, numbers * no_front, {"units": "m"}) for name in AHEAD},
     }
-    return Results(xr.Dataset(data, {"receptor": ["house"]}), HOUSE)
+    places = {"receptor": ["house"], "receptor_x_bounds": (("receptor", "bounds"), [[42.0, 42.0]])}
+    return Results(xr.Dataset(data, places), HOUSE)
 
 
 @pytest.mark.parametrize(("front", "told"), [([1, 0, 0, 0], "any moved ground: 100 %, at least 40 %"), ([1] * 4, "")])
@@ -36,10 +42,21 @@ def test_moved_ground_is_told_beside_the_front_where_it_gets_there_more_often(fr
     assert reach.is_pushed_farther == bool(told)
 
 
-def test_what_pushed_ground_does_is_told():
-    """2, 3 and 4 m deep where the front does not get there."""
+def test_what_comes_ahead_of_the_front_is_told_apart():
+    """2, 3 and 4 m deep where the front does not get there; where it does, only what comes with it."""
     (place,) = places(results([1, 0, 0, 0], [1] * 4))
     assert place.slides == 1
-    assert place.pushed.startswith("In 3 slides ground gets here that is pushed or thrown ahead of the front")
-    assert "3.00 m deep or more" in place.pushed
-    assert places(results([1] * 4, [1] * 4))[0].pushed == ""
+    assert place.pushed == (
+        "In 3 slides with ground here that is pushed or thrown ahead of the front, which in 3 of them does not come"
+    )
+    assert (place.ahead[0].name, place.ahead[0].median) == ("largest depth", "3.00 m")
+    assert place.ahead[-1].name == "final rise of the ground where the front does not come"
+    (place,) = places(results([1] * 4, [1] * 4))
+    assert (place.pushed, place.ahead) == ("", [])
+
+
+def test_the_first_ground_is_told_beside_the_front():
+    (place,) = places(results([1] * 4, [1] * 4))
+    rows = {row.name: row.median for row in place.effects}
+    assert rows["arrival of any moved ground after the release"] == "1.50 s"
+    assert rows["arrival of the front"] == "2.50 s"

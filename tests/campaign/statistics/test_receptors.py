@@ -13,13 +13,24 @@ from campaign.statistics.receptors import EFFECTS, reach_probability, receptor_e
 CONFIDENCE = 0.95
 
 
-def dataset(front, moved, statuses, depth):
-    """Return the variables of one receptor, by realization."""
+PLACE = 20.0  # m: the near end of the receptor
+
+
+def dataset(front, moved, statuses, depth, stop=0.0, farther=np.nan):
+    """Return the variables of one receptor, by realization; `stop` is where fronts end (m)."""
     effects = {name: (("realization", "receptor"), np.array(depth)[:, None], {"units": "m"}) for name in EFFECTS}
     reaches = {"front_reaches": front, "moved_ground_reaches": moved}
     flags = {name: (("realization", "receptor"), np.array(values)[:, None]) for name, values in reaches.items()}
     status = {"status": ("realization", np.array([int(status) for status in statuses]))}
-    return xr.Dataset(effects | flags | status, {"receptor": ["road"]})
+    fronts = {
+        "front_position": (
+            ("realization", "time"),
+            np.tile(np.reshape(stop, (-1, 1)), (len(statuses) // np.size(stop), 2)),
+        ),
+        "farther_advance": ("realization", np.broadcast_to(farther, len(statuses))),
+    }
+    bounds = {"receptor_x_bounds": (("receptor", "bounds"), [[PLACE, PLACE + 4.0]])}
+    return xr.Dataset(effects | flags | status | fronts, {"receptor": ["road"], **bounds})
 
 
 def test_the_interval_is_that_of_clopper_and_pearson():
@@ -41,8 +52,8 @@ def test_nothing_in_forty_has_an_upper_bound():
 def test_failures_are_left_out_and_bounded_and_so_is_what_still_moves():
     """Of ten, two reach, one failed, and one that has not reached it still moves: 2 of 9, and 2 to 4 of 10."""
     reaches = np.array([1.0, 1.0, np.nan, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
-    may_go_on = np.array([True, False, False, True, *[False] * 6])
-    interval, bounds = reach_probability(reaches, may_go_on, CONFIDENCE)
+    may_come = np.array([True, False, False, True, *[False] * 6])
+    interval, bounds = reach_probability(reaches, may_come, CONFIDENCE)
     assert (interval.estimate, interval.n) == (2 / 9, 9)
     assert bounds == (0.2, 0.4)
 
@@ -87,3 +98,17 @@ def test_what_a_wall_has_stopped_is_bounded():
     reaches = [1.0, 0.0, 0.0, 0.0]
     first = receptor_estimates(dataset(reaches, reaches, statuses, [1.0, 0.0, 0.0, 0.0]), CONFIDENCE)[0]
     assert first.open_bounds == (1 / 4, 2 / 4)
+
+
+def test_a_slide_that_still_moves_gets_no_farther_than_friction_lets_it():
+    """Of four that still move, one may come 1 m farther and is 0.5 m short, one is 31 m short, one has no bound."""
+    statuses = [Status.not_settled] * 4
+    stop, farther = np.array([21.0, PLACE - 0.5, PLACE - 31.0, 5.0]), np.array([1.0, 1.0, 1.0, np.nan])
+    reaches = [1.0, 0.0, 0.0, 0.0]
+    front, moved = (
+        each
+        for each in receptor_estimates(dataset(reaches, reaches, statuses, reaches, stop, farther), CONFIDENCE)
+        if "probability" in each.quantity
+    )
+    assert front.open_bounds == (1 / 4, 3 / 4)
+    assert moved.open_bounds == (1 / 4, 1.0)
