@@ -48,6 +48,11 @@ def counted(number: int, noun: str) -> str:
     return f"{number:,} {noun}{'' if number == 1 else 's'}"
 
 
+def listing(names: list[str]) -> str:
+    """Return names with an "and"."""
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
 def refresh(text: str) -> None:
     """Print text as the one thing on the screen; below the last one where the output is not a terminal.
 

@@ -5,10 +5,11 @@ from math import isfinite
 
 import numpy as np
 
-from campaign.record import Status
+from campaign.record import LOWER_BOUND, Status
 from campaign.scene import Scene
 from campaign.scene.sections import Receptor
 from campaign.simulation.trial import Trial
+from campaign.terminal import listing
 
 
 def trial_text(scene: Scene, made: Trial | None) -> str:
@@ -41,11 +42,19 @@ def _receptors(made: Trial) -> str:
     reached = np.asarray(made.record.values["front_reaches"]) == 1
     there = [each for each, hit in zip(asked, reached, strict=True) if hit]
     if not there:
-        return f" It does not reach {_listed(asked)}."
+        return f" It {_not_reached(made)} {_listed(asked)}."
     others = [each for each in asked if each not in there]
-    return f" It reaches {_listed(there)}{f', not {_listed(others)}' if others else ''}."
+    return f" It reaches {_listed(there)}{_others(made, others)}."
+
+
+def _others(made: Trial, others: Sequence[Receptor]) -> str:
+    return f", and {_not_reached(made)} {_listed(others)}" if others else ""
+
+
+def _not_reached(made: Trial) -> str:
+    """Say that it does not reach a place, or has not by then where it would have come farther."""
+    return "has not reached by then" if made.record.status in LOWER_BOUND else "does not reach"
 
 
 def _listed(receptors: Sequence[Receptor]) -> str:
-    names = [f"{each.name} (x = {each.x[0]:g} m)" for each in receptors]
-    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
+    return listing([f"{each.name} (x = {each.x[0]:g} m)" for each in receptors])

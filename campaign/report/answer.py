@@ -1,6 +1,5 @@
 """The answer of a campaign in words, for the terminal and the report."""
 
-import math
 import re
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -9,9 +8,10 @@ import numpy as np
 
 from campaign.record import Status
 from campaign.report import estimates
+from campaign.report.cut_short import Cause, at_least, causes, in_one_clause
 from campaign.results.results import Results
-from campaign.simulation.flags import AHEAD_WALL, CREST_WALL
 from campaign.statistics.intervals import Interval
+from campaign.statistics.proportions import results_to_bound
 from campaign.statistics.stopping import RARE
 from campaign.statistics.total import has_mesh_error
 from campaign.statistics.wording import chance, chance_of_slide, chances, metres
@@ -51,7 +51,7 @@ def answer(results: Results) -> str:
     if outcomes.usable == 0:
         none = f"No answer: {counted(results.realizations, 'realization')}, and none with a result."
         return " ".join(filter(None, [none, why_failed(results)]))
-    of_slides = [_runout(results), _cut_short(results), _spread(results), _farthest(results)] if outcomes.slides else []
+    of_slides = _slides(results) if outcomes.slides else []
     return " ".join(filter(None, [_chance(results), *of_slides, _comparison(results), _beyond(results)]))
 
 
@@ -86,8 +86,8 @@ def _chance(results: Results) -> str:
     within, confidence = chance_of_slide(probability), f"{100 * results.confidence:g} % confidence"
     if given.slides == 0:
         stable = "It does not slide: " if probability.upper <= RARE else ""
-        more = f" {_bounded_by_less(results)}" if stable else " It takes more of them to call the slope stable."
-        return f"{stable}{seen} slid, so the probability of a slide is {within} ({confidence}).{more}"
+        more = _bounded_by_less(results) if stable else _not_yet_stable(results)
+        return f"{stable}{seen} slid, so the probability of a slide is {within} ({confidence}). {more}"
     if given.slides < given.usable:
         within = f"{chance(probability.estimate)}, {within}"
     return f"{seen} slid: the probability of a slide is {within} ({confidence})."
@@ -95,19 +95,29 @@ def _chance(results: Results) -> str:
 
 def _bounded_by_less(results: Results) -> str:
     """Say how to ask for more than that slides are rare."""
-    number = math.ceil(math.log((1.0 - results.confidence) / 2.0) / math.log(1.0 - RARER))
+    number = results_to_bound(RARER, results.confidence)
     return (
         f"About {number:,} realizations without a slide bound it by {100 * RARER:g} %: ask for "
         f"campaign.slide_probability_tolerance = {RARER / 2:g}, which is half of that."
     )
 
 
+def _not_yet_stable(results: Results) -> str:
+    """Say how many realizations without a slide call a slope stable."""
+    return f"It takes {results_to_bound(RARE, results.confidence):,} without a slide to call the slope stable."
+
+
+def _slides(results: Results) -> list[str]:
+    """Say how far slides come, and what is open of that."""
+    return [_runout(results), _cut_short(results, causes(results)), _spread(results), _farthest(results)]
+
+
 def _runout(results: Results) -> str:
     """Say how far the slide runs on average, with the total interval and what it consists of."""
     total, mean = estimates.total_runout(results), estimates.mean_runout(results)
-    if not total.is_known:
-        return f"That slide ran {mean.estimate:.2f} m. It takes more of them to say how sure that is."
-    least = "at least " if _cut_short(results) else ""
+    least = "" if results.outcomes.bound_the_mean else "at least "
+    if mean.n == 1:
+        return f"That slide ran {least}{mean.estimate:.2f} m. It takes two slides or more to say how sure that is."
     given = " where it slides" if mean.n < results.outcomes.usable else ""
     return (
         f"The slide runs {least}{total.estimate:.2f} m on average{given}, {metres(total)} with "
@@ -126,65 +136,57 @@ def _parts(results: Results, mean: Interval) -> str:
     )
 
 
-def _cut_short(results: Results) -> str:
-    """Say why a mean is a lower bound."""
-    hindered, slides = results.outcomes.hindered, counted(results.outcomes.slides, "slide")
-    unsettled = results.by_status()[Status.not_settled]
-    causes = {
-        f"{walls_in_words(results)} stopped {hindered:,} of {slides}": (hindered, "Lengthen the ground there."),
-        f"{unsettled:,} of {slides} still moved when the run ended": (unsettled, "Raise numerics.end_time."),
-    }
-    told = {cause: remedy for cause, (count, remedy) in causes.items() if count}
-    return f"This is a lower bound: {' and '.join(told)}. {' '.join(told.values())}" if told else ""
-
-
-def walls_in_words(results: Results) -> str:
-    """Say which wall of the model was in the way, or which of them."""
-    reasons = [str(each) for each in results.data["reason"].values[results.has_status([Status.reached_wall])]]
-    names = {
-        "behind the crest (geometry.slope.crest)": CREST_WALL,
-        "ahead of the slope (geometry.slope.plain)": AHEAD_WALL,
-    }
-    if results.scene.geometry.slope is None:
-        names = {name.partition(" (")[0]: sentence for name, sentence in names.items()}
-    met = [name for name, sentence in names.items() if any(sentence.partition(" (x")[0] in each for each in reasons)]
-    return f"the wall {' or that '.join(met)}" if met else "a wall of the model"
+def _cut_short(results: Results, found: list[Cause]) -> str:
+    """Say why a mean is a lower bound, and what that leaves open."""
+    if not found:
+        return ""
+    why, remedies = in_one_clause(found), " ".join(cause.remedy for cause in found)
+    if results.outcomes.bound_the_mean:
+        added = float(np.sum(results.slide_runouts[results.outcomes.is_cut_short])) / results.outcomes.slides
+        these = "it" if results.outcomes.cut_short == 1 else "they"
+        return f"{why[0].upper()}{why[1:]}: had {these} come twice as far, the mean would be {added:.2f} m larger."
+    return f"This is a lower bound, and nothing bounds the mean from above: {why}. {remedies}"
 
 
 def _spread(results: Results) -> str:
     std, runouts = estimates.std_runout(results), results.slide_runouts
     if runouts.size < 2:
         return ""
-    interval = f" ({metres(std)})" if std.is_known else ""
+    is_bounded, least = results.outcomes.bound_the_mean, "at least " if results.outcomes.cut_short else ""
+    interval = f" ({metres(std)})" if std.is_known and is_bounded else ""
+    so_far = "" if is_bounded else ", as far as they came,"
     return (
-        f"Single slides scatter by a standard deviation of {std.estimate:.2f} m{interval}; the shortest ran "
-        f"{runouts.min():.2f} m, the longest {runouts.max():.2f} m."
+        f"Single slides{so_far} scatter by a standard deviation of {std.estimate:.2f} m{interval}; the shortest ran "
+        f"{runouts.min():.2f} m, the longest {least}{runouts.max():.2f} m."
     )
 
 
 def _farthest(results: Results) -> str:
     far = estimates.total_quantile(results, estimates.FAR)
-    if not far.is_known:
+    if np.isnan(far.upper):
         return ""
-    return f"{100 * estimates.FAR:g} % of the slides stop within {far.estimate:.2f} m ({metres(far)})."
+    least = ""
+    if estimates.is_least(results, estimates.FAR):
+        least = "a distance of at least "
+    return f"{100 * estimates.FAR:g} % of the slides stop within {least}{far.estimate:.2f} m ({metres(far)})."
 
 
 def _comparison(results: Results) -> str:
-    distance, slides = results.deterministic, results.outcomes.slides
+    run, distance, slides = results.deterministic_run, results.deterministic, results.outcomes.slides
     with_mean = "With mean strengths everywhere"
     if not np.isfinite(distance):
         return "The deterministic run failed, so there is nothing to compare with."
-    if distance == 0:
+    if run.status is Status.no_slide:
         return f"{with_mean} it {'would not slide' if slides else 'does not slide either'}."
     if not slides:
-        return f"{with_mean} it would slide and run {distance:.2f} m."
-    farther = estimates.exceedance(results, distance)
-    some = ""
+        return f"{with_mean} it would slide and run {at_least(run)}{distance:.2f} m."
+    farther, some = estimates.exceedance(results, distance), ""
+    than = f" than these {distance:.2f} m" if at_least(run) else ""
     if slides < results.outcomes.usable:
         some = f", {chance(estimates.exceedance_given_sliding(results, distance).estimate)} of those that slide"
     return (
-        f"{with_mean} it would run {distance:.2f} m; {chance(farther.estimate)} of all realizations run farther "
-        f"({chances(farther)}){some}."
+        f"{with_mean} it would run {at_least(run)}{distance:.2f} m; {chance(farther.estimate)} of all realizations run "
+        f"farther{than} ({chances(farther)}){some}."
     )
 
 

@@ -4,9 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.record import Status
+from campaign.record import FAILED, UNHINDERED, Status
 from campaign.report import estimates
+from campaign.report.cut_short import at_least, causes
 from campaign.results.results import Results
+from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import failure_bounds
 from campaign.statistics.total import has_mesh_error
@@ -14,6 +16,9 @@ from campaign.statistics.wording import chance, chances, metres
 from campaign.terminal import counted
 
 NOT_ESTIMATED = "not estimated"
+
+LOST = dict.fromkeys(FAILED, "failed") | {Status.reached_wall: "reached a wall"}
+"""Ends of a run after which its run-out is not that of the slope, in words."""
 
 NO_RESULT = "no realization with a result"
 
@@ -52,14 +57,15 @@ def _chance(results: Results) -> list[Row]:
 
 def _runout(results: Results) -> list[Row]:
     mean, std, n = estimates.mean_runout(results), estimates.std_runout(results), str(results.outcomes.slides)
+    so_far = "" if results.outcomes.bound_the_mean else ", as far as they came"
     if mean.n == 0:
         return []
     total, spread = estimates.total_runout(results), metres(std) if std.is_known else ""
     holds = "sampling and mesh" if has_mesh_error(results.discretisation) else "sampling alone"
     return [
         Row("Total", f"mean run-out of a slide, {holds}", f"{total.estimate:.2f} m", metres(total), n),
-        Row("Sampling", "mean run-out of a slide", f"{mean.estimate:.2f} m", metres(mean), n),
-        Row("Sampling", "standard deviation of a slide", _known(std.estimate, ".2f", " m"), spread, n),
+        Row("Sampling", f"mean run-out of a slide{so_far}", f"{mean.estimate:.2f} m", metres(mean), n),
+        Row("Sampling", f"standard deviation of a slide{so_far}", _known(std.estimate, ".2f", " m"), spread, n),
     ]
 
 
@@ -67,7 +73,8 @@ def _exceedance(results: Results) -> list[Row]:
     distance = results.deterministic
     if not distance > 0 or not results.outcomes.usable:
         return []
-    farther = f"more than {distance:.2f} m, the run-out with mean strengths"
+    came = "as far as it came" if at_least(results.deterministic_run) else "the run-out"
+    farther = f"more than {distance:.2f} m, {came} with mean strengths"
     rows = [_probability(f"probability of {farther}", estimates.exceedance(results, distance))]
     if 0 < results.outcomes.slides < results.outcomes.usable:
         rows.append(_probability("the same of a slide", estimates.exceedance_given_sliding(results, distance)))
@@ -80,15 +87,8 @@ def _probability(name: str, share: Interval) -> Row:
 
 def _cut_short(results: Results) -> list[Row]:
     """Return what makes a mean a lower bound."""
-    slides, unsettled = results.outcomes.slides, results.by_status()[Status.not_settled]
-    hindered, told = results.outcomes.hindered, counted(slides, "slide")
-    causes = {
-        "Walls": (hindered, f"a wall stopped {hindered:,} of {told}"),
-        "End of the run": (unsettled, f"{unsettled:,} of {told} still moved"),
-    }
-    return [
-        Row(source, "mean run-out of a slide", "at least", why, str(slides)) for source, (n, why) in causes.items() if n
-    ]
+    slides = str(results.outcomes.slides)
+    return [Row(each.source, "mean run-out of a slide", "at least", each.told, slides) for each in causes(results)]
 
 
 def _failures(results: Results) -> list[Row]:
@@ -128,18 +128,36 @@ def _discretisation(results: Results) -> list[Row]:
         return [Row("Discretisation", "mean run-out of a slide", NOT_ESTIMATED, remedy, "")]
     change, name = found.interval, f"mean run-out of a slide, changed by cells of {found.cell / 2:g} m"
     if change.n == 0:
-        return [Row("Discretisation", name, NOT_ESTIMATED, "in no pair both slid", "0")]
+        return [Row("Discretisation", name, NOT_ESTIMATED, _why_no_pair(results, found), "0")]
     bounds = f"{change.lower:+.2f} to {change.upper:+.2f} m" if change.is_known else "not enough pairs"
     return [Row("Discretisation", name, f"{change.estimate:+.2f} m", bounds, str(change.n))]
 
 
+def _why_no_pair(results: Results, found: Discretisation) -> str:
+    """Say why no realization gave a run-out with both cells."""
+    repeated = slice(found.differences.size)
+    slid = int(np.count_nonzero(results.has_slid[repeated]))
+    if not slid:
+        return f"none of the first {counted(found.differences.size, 'realization')} slid"
+    if not results.has_status(UNHINDERED)[repeated].any():
+        walls = "a wall stopped the one that slid" if slid == 1 else f"walls stopped all {slid} that slid"
+        return f"of the first {counted(found.differences.size, 'realization')} {walls}"
+    return "with half the cell, none slid to its end without a failure or a wall in its way"
+
+
 def _release(results: Results) -> Row:
-    name, found, own = "run-out with mean strengths", results.release, results.deterministic
-    if found is None or not np.isfinite(found.runout(results.front)) or not np.isfinite(own):
-        return Row("Release", name, NOT_ESTIMATED, "it takes this run with either release protocol", "")
-    other = found.runout(results.front)
+    name, run, found = "run-out with mean strengths", results.deterministic_run, results.release
+    if found is None:
+        lacking = "the run with the other release protocol was not made"
+        if not results.scene.campaign.discretisation_pairs:
+            lacking += ", which goes with campaign.discretisation_pairs"
+        return Row("Release", name, NOT_ESTIMATED, lacking, "")
+    runs = {results.scene.numerics.gravity: run, found.other: found.summary}
+    if lost := [f'{LOST[each.status]} with "{gravity}"' for gravity, each in runs.items() if each.status in LOST]:
+        return Row("Release", name, NOT_ESTIMATED, f"this run {' and '.join(lost)}", "")
+    own, other = (each.runout(results.front) for each in runs.values())
     share = f" ({100 * (other / own - 1):+.1f} %)" if own > 0 else ""
-    both = f'{own:.2f} m with "{results.scene.numerics.gravity}", {other:.2f} m with "{found.other}"'
+    both = ", ".join(f'{at_least(each)}{each.runout(results.front):.2f} m with "{by}"' for by, each in runs.items())
     return Row(
         "Release",
         f'{name}, changed by the other way to begin, gravity = "{found.other}"',

@@ -1,9 +1,11 @@
 """The numbers of the answer with their intervals, a function for each: for words, tables and figures alike."""
 
+import numpy as np
+
 from campaign.results.results import Results
 from campaign.statistics import proportions
 from campaign.statistics.intervals import Interval, mean_interval, quantile_interval, std_interval
-from campaign.statistics.total import total_interval
+from campaign.statistics.total import total_interval, total_mean
 
 FAR = 0.95
 """The share of slides that stop before the distance named in the answer."""
@@ -20,8 +22,11 @@ def mean_runout(results: Results) -> Interval:
 
 
 def total_runout(results: Results) -> Interval:
-    """Return the mean run-out of the slides in m, with sampling and, where that is known, mesh error."""
-    return total_interval(mean_runout(results), results.discretisation)
+    """Return the mean run-out of the slides in m, with sampling and, where that is known, mesh error.
+
+    It has no upper bound where more than a few slides were cut short.
+    """
+    return total_mean(mean_runout(results), results.discretisation, results.outcomes)
 
 
 def std_runout(results: Results) -> Interval:
@@ -30,8 +35,14 @@ def std_runout(results: Results) -> Interval:
 
 
 def quantile_runout(results: Results, share: float) -> Interval:
-    """Return the distance in m within which a share of the slides stops."""
-    return quantile_interval(results.slide_runouts, share, results.confidence)
+    """Return the distance in m within which a share of the slides stops; those cut short may come any farther."""
+    return quantile_interval(results.slide_runouts, share, results.confidence, results.outcomes.is_cut_short)
+
+
+def is_least(results: Results, share: float) -> bool:
+    """Whether that distance would be larger, had slides that were cut short come farther."""
+    above = np.quantile(results.slide_runouts, share, method="higher")
+    return bool(np.any(results.outcomes.is_cut_short & (results.slide_runouts <= above)))
 
 
 def total_quantile(results: Results, share: float) -> Interval:

@@ -5,13 +5,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.record import Status
 from campaign.report import estimates
+from campaign.report.cut_short import causes, in_one_clause
 from campaign.report.places import Reach, reach_estimates
 from campaign.report.raised import goes_ahead
 from campaign.report.wording import bounds
 from campaign.results.results import Results
 from campaign.statistics.intervals import Interval
+from campaign.statistics.proportions import results_to_bound
 from campaign.statistics.total import has_mesh_error
 from campaign.statistics.wording import chance, chance_of_slide, chances
 from campaign.terminal import counted
@@ -63,7 +64,11 @@ def _runouts(results: Results) -> list[Tile]:
     if not slides:
         return []
     if slides == 1:
-        return [Tile("Run-out of the only slide", f"{results.slide_runouts[0]:.2f} m", "", "more slides tell how sure")]
+        least = "at least " if results.outcomes.cut_short else ""
+        runout = f"{least}{results.slide_runouts[0]:.2f} m"
+        return [
+            Tile("Run-out of the only slide", runout, "", in_one_clause(causes(results)) or "two slides tell how sure")
+        ]
     names = {
         0.5: "Half of the fronts stop within",
         estimates.FAR: f"{100 * estimates.FAR:g} % stop within",
@@ -74,7 +79,8 @@ def _runouts(results: Results) -> list[Tile]:
 def _runout(results: Results, name: str, share: float) -> Tile:
     total = estimates.total_quantile(results, share)
     form = ".1f" if total.estimate >= 1 else ".2f"
-    return Tile(name, f"{total.estimate:{form}} m", bounds(total, "m", form), _remark(results, total, share))
+    least = "at least " if estimates.is_least(results, share) else ""
+    return Tile(name, f"{least}{total.estimate:{form}} m", bounds(total, "m", form), _remark(results, total, share))
 
 
 def _remark(results: Results, total: Interval, share: float) -> str:
@@ -84,12 +90,10 @@ def _remark(results: Results, total: Interval, share: float) -> str:
 
 
 def _bounds_known(results: Results, total: Interval, share: float) -> str:
-    hindered, unsettled = results.outcomes.hindered, results.by_status()[Status.not_settled]
-    reasons = {f"a wall stopped {hindered}": hindered, f"{unsettled} still moved at the end": unsettled}
-    if told := " and ".join(reason for reason, count in reasons.items() if count):
-        return f"lower bound: of {counted(results.outcomes.slides, 'slide')} {told}"
-    needed = math.ceil(math.log((1 - results.confidence) / 2) / math.log(max(share, 1 - share)))
-    return f"both bounds need {needed} slides" if not total.is_known else ""
+    if estimates.is_least(results, share):
+        return f"lower bound: {in_one_clause(causes(results))}"
+    needed = results_to_bound(1 - max(share, 1 - share), results.confidence)
+    return f"both bounds need {needed} slides" if math.isnan(total.half_width) else ""
 
 
 def _reach(each: Reach) -> Tile:

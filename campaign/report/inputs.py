@@ -13,7 +13,7 @@ from campaign.statistics.intervals import Interval
 from campaign.statistics.sensitivity import Ranking
 from campaign.statistics.sensitivity_map import SensitivityMap
 from campaign.statistics.wording import chance
-from campaign.terminal import counted
+from campaign.terminal import counted, listing
 
 TENTH = f"{100 * MORE:g} % more"
 
@@ -52,7 +52,7 @@ def sentences(results: Results) -> list[str]:
         _followed("The run-out of a slide", ranking_of(results.data, "runout"), named),
         _mapped(results, map_of(results.data)),
     ]
-    return [sentence for sentence in told if sentence] or [_nothing()]
+    return [sentence for sentence in told if sentence] or [_nothing(results)]
 
 
 def names(results: Results) -> list[str]:
@@ -106,12 +106,21 @@ def _largest(results: Results) -> str:
         )
     (key, effect), *others = [*found.clear().items()][:NAMED]
     then = " and ".join(f"{BY_KEY[other].name}, {_changed(each)}" for other, each in others)
-    unclear = len(known) - len(found.clear())
-    rest = f" The effect of {unclear} of them cannot be told from none." if unclear else ""
+    next_come = f"; next {'comes' if len(others) == 1 else 'come'} {then}" if others else ""
+    unclear = [each for each in known if each not in found.clear()]
+    most = "most" if not unclear else "most of those whose effect can be told from none"
     return (
-        f"{of_all} {BY_KEY[key].name} changes the run-out of a slide most, by {_changed(effect)}"
-        f"{f'; next come {then}' if then else ''}.{rest} {again[0].upper()}{again[1:]}"
+        f"{of_all} {BY_KEY[key].name} changes the run-out of a slide {most}, by {_changed(effect)}{next_come}."
+        f"{_unclear(unclear)} {again[0].upper()}{again[1:]}"
     )
+
+
+def _unclear(keys: list[str]) -> str:
+    """Name the inputs whose effect cannot be told from none, which may be large for all that."""
+    if not keys:
+        return ""
+    them = listing([BY_KEY[key].name for key in keys])
+    return f" {them[0].upper()}{them[1:]} {'has an effect' if len(keys) == 1 else 'have effects'} lost in the scatter."
 
 
 def _followed(what: str, ranking: Ranking | None, named: list[str]) -> str:
@@ -120,12 +129,13 @@ def _followed(what: str, ranking: Ranking | None, named: list[str]) -> str:
         return ""
     place = int(np.argmax([abs(each.estimate) for each in ranking.correlation]))
     closest = ranking.correlation[place]
-    follows = f"follows the {named[place]} of the ground that moves most closely" if len(named) > 1 else ""
-    follows = follows or f"follows the {named[place]} of the ground that moves"
+    most = " most closely" if len(named) > 1 else ""
+    follows = f"follows the mean {named[place]} of all the ground that moves{most}"
+    means = f"the means of all {len(named)} properties explain" if len(named) > 1 else "that mean explains"
     if closest.lower <= 0 <= closest.upper:
-        return f"{what} does not visibly follow the mean of a random property over the ground that moves."
+        return f"{what} does not visibly follow the mean of a random property over all the ground that moves."
     bounds = f"{closest.estimate:+.2f}, between {closest.lower:+.2f} and {closest.upper:+.2f}"
-    return f"{what} {follows} (rank correlation {bounds}); such means explain {_share(ranking.explained)}."
+    return f"{what} {follows} (rank correlation {bounds}); {means} {_share(ranking.explained)}."
 
 
 def _mapped(results: Results, found: SensitivityMap | None) -> str:
@@ -133,14 +143,14 @@ def _mapped(results: Results, found: SensitivityMap | None) -> str:
     if found is None:
         return ""
     if found.explained <= 0 or not found.is_clear.any():
-        return "Where the ground is strong does not visibly matter to the run-out."
+        return "Which places of the ground are strong does not visibly matter to the run-out."
     clear = np.where(found.is_clear, found.change, 0.0)
     places = [np.unravel_index(extreme(clear), clear.shape) for extreme in (np.argmin, np.argmax)]
     told = [_at(results, place, float(clear[place])) for place in places if clear[place]]
     width, height = (float(np.diff(results.data[f"box_{axis}"].values[:2])[0]) for axis in "xy")
     return (
-        f"Where the ground is strong explains {_share(found.explained)}: {TENTH} in a box of {width:.1f} m by "
-        f"{height:.1f} m changes the run-out by {' and '.join(told)}."
+        f"The same properties place by place, instead of their means, explain {_share(found.explained)} of the "
+        f"run-out: {TENTH} in a box of {width:.1f} m by {height:.1f} m changes it by {' and '.join(told)}."
     )
 
 
@@ -154,11 +164,24 @@ def _share(explained: float) -> str:
     return f"{chance(explained)} of the scatter" if explained > 0 else "nothing of the scatter"
 
 
-def _nothing() -> str:
-    return (
-        f"It takes {sensitivity.FEWEST} slides to say which property of the soil matters, and one slide and "
-        "campaign.sensitivity_pairs to say what the other inputs do."
-    )
+def _nothing(results: Results) -> str:
+    """Say why nothing is known of the inputs."""
+    slides = results.outcomes.slides
+    soil = f"It takes {sensitivity.FEWEST} slides to say which property of the soil matters, and there are {slides:,}"
+    if slides >= sensitivity.FEWEST:
+        soil = f"The {counted(slides, 'slide')} do not say which property of the soil matters"
+    return f"{soil}; {_why_no_effects(results)}."
+
+
+def _why_no_effects(results: Results) -> str:
+    """Say why no slide was computed again with more of an input."""
+    if not results.scene.campaign.sensitivity_pairs:
+        return "what the inputs do is computed with campaign.sensitivity_pairs above 0"
+    if not results.outcomes.slides:
+        return "what the inputs do is told by slides computed again, and nothing slid"
+    if results.outcomes.hindered == results.outcomes.slides:
+        return "what the inputs do is told by slides that no wall stops, and walls stopped all of them"
+    return "the slides to say what the inputs do were not computed again"
 
 
 def _changed(change: Interval) -> str:

@@ -2,24 +2,23 @@
 
 import numpy as np
 
-from campaign.record import FINAL_RUNOUT, Status
+from campaign.record import FAILED, FINAL_RUNOUT, SLID, Status
 from campaign.report import estimates
-from campaign.report.answer import walls_in_words, why_failed
+from campaign.report.answer import why_failed
+from campaign.report.cut_short import END, WALLS, causes
 from campaign.report.raised import goes_ahead, least_rise
 from campaign.results.results import Results
 from campaign.statistics.doubts import detached_fronts, doubts
-from campaign.statistics.wording import chance
+from campaign.statistics.outcomes import FEW
 from campaign.terminal import counted
-
-MANY = 0.1
-"""Share of the slides from which on walls decide the answer; fewer only make the mean a lower bound."""
 
 
 def reasons_for_doubt(results: Results) -> list[str]:
     """Return sentences on why the run-outs or their intervals may not hold."""
     volumes, mass_runouts = results.of_slides("detached_volume"), results.of_slides(FINAL_RUNOUT["mass"])
     apart = detached_fronts(volumes, mass_runouts, results.scene.front_area, results.front)
-    told = [_failed(results), _hindered(results), *doubts(results.runouts), *apart, _ahead(results), _moving(results)]
+    slid = [_hindered(results), *doubts(results.runouts), *apart, _ahead(results), _moving(results)]
+    told = [_failed(results), _beginning(results), *slid]
     return [sentence for sentence in told if sentence]
 
 
@@ -34,12 +33,30 @@ def _failed(results: Results) -> str:
     )
 
 
-def _hindered(results: Results) -> str:
-    hindered, slides = results.outcomes.hindered, results.outcomes.slides
-    if hindered <= MANY * slides:
+def _beginning(results: Results) -> str:
+    """Say that the way to begin decides whether the slope slides, where it does so for mean strengths."""
+    run, found = results.deterministic_run, results.release
+    if found is None or {run.status, found.summary.status} & FAILED:
         return ""
-    wall, stopped = walls_in_words(results), f"{hindered:,} of {counted(slides, 'slide')}"
-    return f"{wall[0].upper()}{wall[1:]} stopped {stopped}, which would have come farther."
+    slides = {
+        results.scene.numerics.gravity: run.status in SLID,
+        found.other: found.summary.status in SLID,
+    }
+    if len(set(slides.values())) == 1:
+        return ""
+    by = {has_slid: protocol for protocol, has_slid in slides.items()}
+    return (
+        "How failure begins decides whether the slope slides: with mean strengths it slides with gravity = "
+        f'"{by[True]}" and stands with "{by[False]}". The probability of a slide holds for '
+        f'"{results.scene.numerics.gravity}" alone; repeat the campaign with the other, and compare.'
+    )
+
+
+def _hindered(results: Results) -> str:
+    if results.outcomes.hindered <= FEW * results.outcomes.slides:
+        return ""
+    (stopped,) = (each.told for each in causes(results) if each.source == WALLS)
+    return f"{stopped[0].upper()}{stopped[1:]}, which would have come farther."
 
 
 def _ahead(results: Results) -> str:
@@ -47,22 +64,21 @@ def _ahead(results: Results) -> str:
     half, far = goes_ahead(results, 0.5), goes_ahead(results, estimates.FAR)
     if half is None or far is None:
         return ""
+    rise = f"{least_rise(results):.2g} m or more (half a cell, the least that the mesh can tell)"
     return (
-        f"Ground is raised by {least_rise(results):.2g} m or more as far as {half:.1f} m from the toe in half of the "
-        f"slides, and {far:.1f} m in {100 * estimates.FAR:g} % of them, farther than their fronts come: slid ground "
-        "from upslope of the toe, the front, pushes and throws other ground ahead. Whether any of it reaches a place "
-        "is told as moved ground."
+        f"Ground is raised by {rise} as far as {half:.1f} m from the toe in half of the slides, and {far:.1f} m in "
+        f"{100 * estimates.FAR:g} % of them, farther than their fronts come: slid ground from upslope of the toe, the "
+        "front, pushes and throws other ground ahead. Whether any of it reaches a place is told as moved ground."
     )
 
 
 def _moving(results: Results) -> str:
     """Say how many slides had not come to rest, and what their fronts still did."""
-    unsettled, n = results.by_status()[Status.not_settled], results.outcomes.slides
-    if not unsettled:
-        return ""
-    bounds = "is a lower bound" if unsettled == 1 else "are lower bounds"
-    told = f"{unsettled:,} of {counted(n, 'run-out')} {bounds}: still moving when the run ended (numerics.end_time)."
-    return f"{told} {_last_advance(results)}"
+    for cause in causes(results):
+        if cause.source == END:
+            bounds = "its run-out is a lower bound" if cause.slides == 1 else "their run-outs are lower bounds"
+            return f"{cause.told} (numerics.end_time): {bounds}. {_last_advance(results)}"
+    return ""
 
 
 def _last_advance(results: Results) -> str:
@@ -71,8 +87,11 @@ def _last_advance(results: Results) -> str:
     histories, time = results.data[name].values[results.has_status([Status.not_settled])], results.data["time"].values
     before = int(np.searchsorted(time, 0.9 * time[-1]))
     advance = histories[:, -1] - histories[:, before]
-    still = float(np.mean(advance > 0.01))
+    lately = f"In the last {time[-1] - time[before]:.2g} s"
+    if advance.size == 1:
+        return f"{lately} its front advanced by {advance[0]:.2f} m."
+    still = int(np.count_nonzero(advance > 0.01))
     return (
-        f"In the last {time[-1] - time[before]:.2g} s the fronts of {chance(still)} of these advanced by more than "
-        f"1 cm, the farthest by {advance.max():.2f} m."
+        f"{lately} the fronts of {still or 'none'} of these {advance.size:,} advanced by more than 1 cm, the farthest "
+        f"by {advance.max():.2f} m."
     )

@@ -5,7 +5,7 @@ from campaign.statistics.convergence import ConvergenceHistory
 from campaign.statistics.discretisation import METHOD, Discretisation
 from campaign.statistics.intervals import Interval
 from campaign.statistics.release import ReleaseComparison
-from campaign.statistics.total import TOTAL, total_interval
+from campaign.statistics.total import TOTAL, total_mean
 
 BOUNDS = ("checkpoint", "bound")
 
@@ -42,7 +42,7 @@ def of_total(history: ConvergenceHistory, found: Discretisation | None) -> Varia
     """Return the mean run-out with all that is known of its error."""
     lower, upper = history.mean_ci[-1].tolist()
     sampled = Interval(float(history.mean[-1]), lower, upper, int(history.n_slides[-1]))
-    total = total_interval(sampled, found)
+    total = total_mean(sampled, found, history.outcomes)
     mean = variable((), total.estimate, "m", "mean final run-out of the slides")
     mean.attrs["comment"] = TOTAL
     return {

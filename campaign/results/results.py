@@ -81,7 +81,12 @@ class Results:
     @property
     def deterministic(self) -> float:
         """Final run-out with mean strengths in m: zero if it does not slide, NaN if that run failed."""
-        return self._deterministic("deterministic").runout(self.front)
+        return self.deterministic_run.runout(self.front)
+
+    @property
+    def deterministic_run(self) -> RealizationSummary:
+        """How the run with mean strengths ended."""
+        return self._deterministic("deterministic")
 
     @property
     def discretisation(self) -> Discretisation | None:

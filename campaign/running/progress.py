@@ -77,6 +77,8 @@ def _estimates(tally: Tally) -> str:
         chance += f", P(slide) {chance_of_slide(latest.slide_probability)}"
     if slides < 2:
         return chance
+    if not latest.outcomes.bound_the_mean:
+        return f"{chance} | run-out at least {latest.mean.estimate:.2f} m, {latest.outcomes.cut_short} cut short"
     return f"{chance} | run-out {_mean(latest.mean)}, std {_std(std_of(latest.variance))}"
 
 

@@ -23,7 +23,8 @@ class Interval(NamedTuple):
     Attributes
     ----------
     estimate, lower, upper : float
-        In the unit of the estimated quantity. NaN where the sample does not suffice.
+        In the unit of the estimated quantity. NaN where the sample does not suffice; an upper bound is infinite where
+        nothing bounds the quantity from above.
     n : int
         Number of values behind the estimate.
     """
@@ -155,7 +156,9 @@ def std_of(variance: Interval) -> Interval:
     return Interval(math.sqrt(estimate), math.sqrt(lower), math.sqrt(upper), n)
 
 
-def quantile_interval(values: Sample, probability: float, confidence: float) -> Interval:
+def quantile_interval(
+    values: Sample, probability: float, confidence: float, is_least: NDArray[np.bool_] | None = None
+) -> Interval:
     """Quantile with the interval between two order statistics, valid for every continuous distribution.
 
     The ranks come from the binomial distribution of the number of values below the quantile, so that the coverage is at
@@ -166,6 +169,9 @@ def quantile_interval(values: Sample, probability: float, confidence: float) -> 
     values : array (n,)
     probability, confidence : float
         Between 0 and 1.
+    is_least : bool array (n,), optional
+        Which values are lower bounds of what they stand for. The estimate and the lower bound take them as they are,
+        the upper bound as if they were infinite: it holds, however far these would have come.
 
     Returns
     -------
@@ -179,5 +185,7 @@ def quantile_interval(values: Sample, probability: float, confidence: float) -> 
     below = special.bdtr(np.arange(n), n, probability)  # chance that so many values or fewer lie below the quantile
     tail = (1 - confidence) / 2
     first, last = np.searchsorted(below, [tail, 1 - tail])
-    ordered = np.append(np.sort(values), math.nan)  # where the rank before the first and the one after the last lead
-    return Interval(float(np.quantile(values, probability)), float(ordered[first - 1]), float(ordered[last]), n)
+    most = values if is_least is None else np.where(is_least, math.inf, values)
+    # NaN is where the rank before the first and the one after the last lead.
+    low, high = (np.append(np.sort(each), math.nan) for each in (values, most))
+    return Interval(float(np.quantile(values, probability)), float(low[first - 1]), float(high[last]), n)

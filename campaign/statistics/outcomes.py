@@ -6,8 +6,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from campaign.record import FAILED, SLID, Front, RealizationSummary, Status
+from campaign.record import FAILED, LOWER_BOUND, SLID, Front, RealizationSummary, Status
 from campaign.statistics.intervals import Sample
+
+FEW = 0.05
+"""Share of the slides up to which those cut short hardly move a mean: twice as far, they would add as much to it."""
 
 
 class Outcomes(NamedTuple):
@@ -23,12 +26,15 @@ class Outcomes(NamedTuple):
         Run-outs of those that slid [m], in the order of their ids.
     is_hindered : bool array (slides,)
         Whether a wall of the model was in the way, so that the run-out is a lower bound.
+    is_cut_short : bool array (slides,)
+        Whether that is so, or the slide still moved when its run ended: a lower bound as well.
     """
 
     realizations: int
     usable: int
     runouts: Sample
     is_hindered: NDArray[np.bool_]
+    is_cut_short: NDArray[np.bool_]
 
     @property
     def slides(self) -> int:
@@ -39,6 +45,16 @@ class Outcomes(NamedTuple):
     def hindered(self) -> int:
         """Number of slides that a wall was in the way of."""
         return int(np.count_nonzero(self.is_hindered))
+
+    @property
+    def cut_short(self) -> int:
+        """Number of slides that would have come farther, nobody knows how far."""
+        return int(np.count_nonzero(self.is_cut_short))
+
+    @property
+    def bound_the_mean(self) -> bool:
+        """Whether so few were cut short that the mean has an upper bound worth its name."""
+        return self.cut_short <= FEW * self.slides
 
     def beyond(self, distance: float) -> int:
         """Return how many ran farther than a distance [m]."""
@@ -70,7 +86,7 @@ class Account:
         self.failed = 0
         self._realizations = self._usable = self._slides = 0
         self._runouts = np.empty(maximum)
-        self._is_hindered = np.empty(maximum, dtype=np.bool_)
+        self._is_hindered, self._is_cut_short = np.empty((2, maximum), dtype=np.bool_)
 
     def add(self, summary: RealizationSummary) -> None:
         """Take the next realization into the account."""
@@ -83,12 +99,14 @@ class Account:
         if summary.status in SLID:
             self._runouts[self._slides] = runout
             self._is_hindered[self._slides] = summary.status is Status.reached_wall
+            self._is_cut_short[self._slides] = summary.status in LOWER_BOUND
             self._slides += 1
 
     def outcomes(self) -> Outcomes:
         """Return the outcomes so far; they stay what they are when more are added."""
         slid = slice(self._slides)
-        return Outcomes(self._realizations, self._usable, self._runouts[slid], self._is_hindered[slid])
+        of_slides = self._runouts[slid], self._is_hindered[slid], self._is_cut_short[slid]
+        return Outcomes(self._realizations, self._usable, *of_slides)
 
 
 def outcomes_of(summaries: Iterable[RealizationSummary], front: Front) -> Outcomes:

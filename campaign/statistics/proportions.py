@@ -33,6 +33,11 @@ def exact_interval(successes: int, n: int, confidence: float) -> Interval:
     return Interval(successes / n, float(lower), float(upper), n)
 
 
+def results_to_bound(chance: float, confidence: float) -> int:
+    """Return how many results without a success bound a proportion by `chance`: the same bound, solved for n."""
+    return math.ceil(math.log((1.0 - confidence) / 2.0) / math.log(1.0 - chance))
+
+
 @lru_cache(maxsize=4096)
 def proportion_interval(successes: int, n: int, confidence: float) -> Interval:
     """Proportion with Wilson's score interval, which stays inside [0, 1] and does not collapse at 0 or n successes.

@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from campaign.record import FAILED, Front, RealizationSummary, Status
+from campaign.record import RealizationSummary
 from campaign.scene import Scene, kept_scene
 
 Protocol = Literal["release", "ramp"]
@@ -36,10 +36,6 @@ class ReleaseComparison:
     def status(self) -> np.int8:
         """How that run ended."""
         return np.int8(self.summary.status)
-
-    def runout(self, front: Front) -> float:
-        """Return its run-out in m, zero without a slide; NaN where it failed or a wall was in the way."""
-        return np.nan if self.summary.status in FAILED | {Status.reached_wall} else self.summary.runout(front)
 
 
 def with_other_release(scene: Scene) -> Scene:

@@ -4,6 +4,7 @@ import math
 
 from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.intervals import Interval
+from campaign.statistics.outcomes import Outcomes
 
 FARTHEST = 2.0
 """How many times the change with half the cell smaller cells may change the run-out: 2 is first order."""
@@ -13,7 +14,8 @@ TOTAL = (
     "may lie, with c the mean change with half the cell, the limit of small cells at first order. It holds the limits "
     "at any order of convergence of one or more, and those where smaller cells undo a part of the change. Half-widths: "
     "a of the mean, sqrt(a^2 + 4 b^2) of the mean plus 2 c, where b is that of c. Without pairs of run-outs, the mean "
-    "and its sampling error alone"
+    "and its sampling error alone. Slides that a wall or the end of the run has cut short count with the distance they "
+    "came: where they are more than a few, the upper bound is infinite"
 )
 
 
@@ -55,6 +57,16 @@ def total_interval(mean: Interval, found: Discretisation | None) -> Interval:
     )
     lower, upper = min(mean.lower, limit - below), max(mean.upper, limit + above)
     return Interval(mean.estimate, 0.0 if lower < 0.0 else lower, upper, mean.n)
+
+
+def total_mean(mean: Interval, found: Discretisation | None, outcomes: Outcomes) -> Interval:
+    """Return the mean run-out with its total interval; infinite above where more than a few were cut short.
+
+    Whatever slides were cut short, the mean of what they came is no more than that of what they would have come, and so
+    is the lower bound.
+    """
+    total = total_interval(mean, found)
+    return total if outcomes.bound_the_mean else total._replace(upper=math.inf)
 
 
 def has_mesh_error(found: Discretisation | None) -> bool:

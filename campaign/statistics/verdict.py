@@ -1,6 +1,7 @@
 """The verdict: a sentence on whether sampling has converged, and if not, what is missing."""
 
-from campaign.statistics.stopping import LOOKS_IN_A_ROW, Checkpoint, StoppingRule
+from campaign.statistics.proportions import results_to_bound
+from campaign.statistics.stopping import LOOKS_IN_A_ROW, RARE, Checkpoint, StoppingRule
 from campaign.statistics.wording import chance_of_slide, percent
 from campaign.terminal import counted
 
@@ -13,6 +14,8 @@ def stopping_verdict(latest: Checkpoint, rule: StoppingRule, converged: bool) ->
     outcomes, count = latest.outcomes, counted(latest.realizations, "realization")
     if converged:
         return f"{CONVERGED} at {count}: {_known(latest, rule)}, at {percent(rule.confidence)} confidence"
+    if outcomes.slides == 0 and outcomes.usable:
+        return f"not converged after {count}: none slid, {_shortfall_without_slides(latest, rule)}"
     if outcomes.usable < rule.minimum:
         return f"not enough yet: {counted(outcomes.usable, 'result')} in {count}, at least {rule.minimum} were asked"
     return f"not converged after {count}: {_shortfall(latest, rule)}"
@@ -25,7 +28,18 @@ def _known(latest: Checkpoint, rule: StoppingRule) -> str:
     if not latest.knows_runout(rule):
         return f"{outcomes.slides} slid, {chance}, and too few slide for a mean and a variance"
     mean, variance = percent(latest.mean.precision), percent(latest.variance.precision)
-    return f"{chance}, the mean run-out is known to {mean}, its variance to {variance}"
+    so_far = "" if outcomes.bound_the_mean else f", as far as slides came ({outcomes.cut_short:,} were cut short),"
+    return f"{chance}, the mean run-out{so_far} is known to {mean}, its variance to {variance}"
+
+
+def _shortfall_without_slides(latest: Checkpoint, rule: StoppingRule) -> str:
+    """Name what is missing for the answer that a slope is stable; mean and variance are not asked of it."""
+    known = f"so the probability of a slide is {chance_of_slide(latest.slide_probability)}"
+    bound = min(RARE, 2.0 * rule.slide_probability_tolerance)
+    needed = results_to_bound(bound, rule.confidence)
+    if latest.outcomes.usable < needed:
+        return f"{known}; {needed:,} without a slide bound it by {percent(bound)}, which is asked for"
+    return f"{known}, as asked for; whether that is enough is decided every {counted(rule.block, 'realization')}"
 
 
 def _shortfall(latest: Checkpoint, rule: StoppingRule) -> str:

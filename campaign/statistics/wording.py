@@ -1,5 +1,7 @@
 """Numbers and intervals as text, for verdict, progress, answer and report alike."""
 
+import math
+
 from campaign.statistics.intervals import Interval
 
 
@@ -23,7 +25,9 @@ def chances(interval: Interval) -> str:
 
 
 def metres(interval: Interval) -> str:
-    """Write the bounds of a length in m, "10.61 to 11.02 m"."""
+    """Write the bounds of a length in m, "10.61 to 11.02 m"; without an upper one "at least 10.61 m"."""
+    if math.isinf(interval.upper):
+        return f"at least {interval.lower:.2f} m"
     return f"{interval.lower:.2f} to {interval.upper:.2f} m" if interval.is_known else "not enough slides"
 
 

@@ -6,10 +6,11 @@ import numpy as np
 
 from campaign.report.figures.particles import Scale
 from campaign.report.figures.section import Section
-from campaign.report.figures.stack import OUTLINE, colour_bar, draw_slide, listing, stack, upper_limit
+from campaign.report.figures.stack import OUTLINE, colour_bar, draw_slide, stack, upper_limit
 from campaign.report.figures.style import Illustration, letter
 from campaign.report.snapshots import ReplayedSlide
 from campaign.simulation.ground import Ground
+from campaign.terminal import listing
 
 
 def extremes(section: Section, ground: Ground, slides: Mapping[str, ReplayedSlide]) -> Illustration:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from campaign.report import estimates
+from campaign.report.cut_short import at_least
 from campaign.report.figures.style import BLACK, BLUE, COLUMN, GREY, Illustration, need, need_slides, new_figure
 from campaign.report.figures.svg import on_hover
 from campaign.results.results import Results
@@ -25,7 +26,7 @@ def histogram(results: Results) -> Illustration:
     density = np.exp(-0.5 * ((x - mean) / std) ** 2) / (std * np.sqrt(2.0 * np.pi))
     axes.plot(x, n * (edges[1] - edges[0]) * density, color=BLUE, label="normal distribution")
     if np.isfinite(results.deterministic):
-        label = f"mean strengths: {results.deterministic:.2f} m"
+        label = f"mean strengths: {at_least(results.deterministic_run)}{results.deterministic:.2f} m"
         axes.axvline(results.deterministic, color=BLACK, linestyle="--", label=label)
     axes.set(xlabel="final run-out (m)", ylabel="slides (-)")
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=2)

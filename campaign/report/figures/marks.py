@@ -51,7 +51,7 @@ def draw_total_intervals(axes: Axes, results: Results, section: Section) -> None
     toe_x, toe_y = section.surface.toe
     for share, depth in zip(STOPS, (0.04, 0.075), strict=True):
         reach = estimates.total_quantile(results, share)
-        low, high = (reach.estimate if np.isnan(bound) else bound for bound in (reach.lower, reach.upper))
+        low, high = (bound if np.isfinite(bound) else reach.estimate for bound in (reach.lower, reach.upper))
         y = toe_y - depth * section.top
         axes.plot([toe_x + low, toe_x + high], [y, y], color=BLUE, linewidth=2.5, solid_capstyle="butt")
         axes.plot([toe_x + reach.estimate] * 2, [toe_y, y], color=BLUE, linewidth=1.0)

@@ -49,8 +49,3 @@ def colour_bar(figure: Figure, panels: Sequence[Axes], scale: Scale, label: str,
 def upper_limit(values: np.ndarray) -> float:
     """Return the end of a colour range that 0.5 % of extreme values do not stretch."""
     return float(np.percentile(values, 99.5)) or 1.0
-
-
-def listing(names: list[str]) -> str:
-    """Return names with an "and"."""
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

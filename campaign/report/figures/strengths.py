@@ -5,10 +5,11 @@ import numpy as np
 from campaign.fields.properties import BY_NAME
 from campaign.report.figures.particles import Scale, draw_lattice
 from campaign.report.figures.section import Section
-from campaign.report.figures.stack import colour_bar, listing, stack
+from campaign.report.figures.stack import colour_bar, stack
 from campaign.report.figures.style import Illustration, letter
 from campaign.report.snapshots import ReplayedSlide
 from campaign.simulation.ground import Ground
+from campaign.terminal import listing
 
 
 def strengths(section: Section, ground: Ground, slide: ReplayedSlide) -> Illustration:

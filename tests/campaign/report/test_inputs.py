@@ -37,7 +37,9 @@ def test_the_input_with_the_largest_effect_is_named_first(results):
         "Of 8 inputs, each raised alone by 10 %, softening rate changes the run-out of a slide most"
     )
     assert f"{effect.estimate:+.2f} m ({effect.lower:+.2f} to {effect.upper:+.2f} m)" in told[0]
-    assert "follows the peak cohesion of the ground that moves most closely" in told[1]
+    assert "follows the mean peak cohesion of all the ground that moves most closely" in told[1]
+    assert "; the means of all 2 properties explain " in told[1]
+    assert told[2].startswith("The same properties place by place, instead of their means, explain ")
     assert "(peak cohesion around x = " in told[2]
 
 
@@ -49,6 +51,19 @@ def test_effects_lost_in_their_scatter_are_not_ranked(results):
         "Of 8 inputs, each raised alone by 10 %, none has an effect on the run-out of a slide that can be told from "
         "none: 4 slides were computed again for each. A larger campaign.sensitivity_pairs may tell more."
     )
+
+
+def test_only_effects_that_can_be_told_are_ranked_and_the_others_named(results):
+    """Two inputs with +1.0 and -2.0 m within 0.1 m; all others change the run-out by 3 m one way or the other."""
+    keys = results.data["input"].values.tolist()
+    rows = np.broadcast_to([9.0, -3.0, 9.1, -3.1], results.data["input_difference"].shape).copy()
+    first, second = keys.index("soil.softening.rate"), keys.index("soil.cohesion.mean")
+    rows[first], rows[second] = [-2.0, -2.1, -1.9, -2.0], [1.0, 1.1, 0.9, 1.0]
+    data = results.data.assign(input_difference=(results.data["input_difference"].dims, rows))
+    told = sentences(Results(data, results.scene))[0]
+    assert "softening rate changes the run-out of a slide most of those whose effect can be told from none, by" in told
+    assert "; next comes mean peak cohesion, +1.00 m" in told
+    assert " have effects lost in the scatter. 4 slides were computed again for each." in told
 
 
 def test_rows_are_in_the_order_of_effect(results):
@@ -64,8 +79,8 @@ def test_rows_are_in_the_order_of_effect(results):
 
 def test_too_little_is_said_in_a_sentence(bare):
     assert sentences(bare) == [
-        "It takes 30 slides to say which property of the soil matters, and one slide and campaign.sensitivity_pairs to "
-        "say what the other inputs do."
+        "The 80 slides do not say which property of the soil matters; the slides to say what the inputs do were not "
+        "computed again."
     ]
     assert effect_rows(bare) == property_rows(bare) == []
     for draw in drawings(bare):

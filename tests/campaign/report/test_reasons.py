@@ -1,13 +1,21 @@
 """Why realizations failed or were cut short, in words."""
 
 import numpy as np
-import xarray as xr
-from small_campaign import small_scene
+import pytest
+from scipy import stats
+from small_campaign import conclude, made_up, small_scene
 
-from campaign.record import Status
-from campaign.report.answer import alike, walls_in_words
-from campaign.results.results import Results
+from campaign.record import SLID, Status
+from campaign.report import headline
+from campaign.report.answer import alike, answer
+from campaign.report.cut_short import causes
+from campaign.report.error_budget import error_budget
+from campaign.report.inputs import sentences
+from campaign.report.reservations import reasons_for_doubt
+from campaign.results.results import Results, read_results
+from campaign.seeds import BASELINE
 from campaign.simulation.flags import AHEAD_WALL, CREST_WALL
+from campaign.simulation.ground import prepare
 
 LEFT = "A particle left the grid at {time} s; widen the ground."
 
@@ -17,14 +25,135 @@ def test_reasons_that_differ_in_their_times_are_one():
     assert alike(reasons) == [LEFT.format(time="3.90"), "took too long"]
 
 
-def test_the_wall_in_the_way_is_named():
-    reasons = np.array([CREST_WALL, f"{CREST_WALL} {AHEAD_WALL.format(width=50.0)}", ""], dtype=object)
+AHEAD = AHEAD_WALL.format(width=75.0)
 
-    def told(*chosen):
-        status = [int(Status.reached_wall) if k in chosen else int(Status.slid) for k in range(3)]
-        data = {"reason": ("realization", reasons), "status": ("realization", status)}
-        return walls_in_words(Results(xr.Dataset(data), small_scene()))
+RUNOUTS = 10.0 + 0.02 * np.arange(20)
 
-    assert told(0) == "the wall behind the crest (geometry.slope.crest)"
-    assert told(0, 1).endswith("or that ahead of the slope (geometry.slope.plain)")
-    assert told(2) == "a wall of the model"
+
+@pytest.fixture(scope="module")
+def twenty(tmp_path_factory):
+    """Twenty slides of 10.00 to 10.38 m, and a run with mean strengths of 9 m."""
+    directory, scene = tmp_path_factory.mktemp("twenty"), small_scene("campaign.realizations=20", "campaign.minimum=21")
+    ground = prepare(scene)
+    slides = [made_up(ground, k, runout) for k, runout in enumerate(RUNOUTS)]
+    conclude(directory, scene, ground, [made_up(ground, BASELINE, 9.0), *slides])
+    return read_results(directory)
+
+
+def ended(results, stopped=(), moving=(), reason=AHEAD, baseline=Status.slid, **others):
+    """Return the results as if some slides had ended otherwise."""
+    status, why = np.full(20, int(Status.slid)), np.full(20, "", dtype=object)
+    status[list(stopped)], status[list(moving)] = Status.reached_wall, Status.not_settled
+    why[list(stopped)] = reason
+    told = {"status": ("realization", status), "reason": ("realization", why)}
+    told |= {"deterministic_status": ((), int(baseline))} | others
+    return Results(results.data.assign(told), results.scene)
+
+
+def by_source(results, source):
+    return [row for row in error_budget(results) if row.source == source]
+
+
+def test_the_wall_in_the_way_is_named(twenty):
+    def told(*stopped, reason):
+        return [(each.told, each.remedy) for each in causes(ended(twenty, stopped, reason=reason))]
+
+    assert told(0, reason=CREST_WALL) == [
+        ("the wall behind the crest stopped 1 of 20 slides", "Lengthen the ground there (geometry.slope.crest).")
+    ]
+    assert told(0, 1, reason=f"{CREST_WALL} {AHEAD_WALL.format(width=50.0)}") == [
+        (
+            "the wall behind the crest or that ahead of the slope stopped 2 of 20 slides",
+            "Lengthen the ground there (geometry.slope.crest and geometry.slope.plain).",
+        )
+    ]
+    assert told(2, reason="")[0][0] == "a wall of the model stopped 1 of 20 slides"
+    assert told(reason="") == []
+
+
+def test_many_slides_cut_short_leave_no_upper_bound(twenty):
+    """Mean 10.19 m, lower bound by Student's t: however far the two would have come, the true mean is not below it."""
+    lower = stats.t.interval(0.95, 19, RUNOUTS.mean(), RUNOUTS.std(ddof=1) / np.sqrt(20))[0]
+    told = answer(ended(twenty, stopped=[0], moving=[19]))
+    assert f"The slide runs at least 10.19 m on average, at least {lower:.2f} m with 95 % confidence" in told
+    assert (
+        "This is a lower bound, and nothing bounds the mean from above: the wall ahead of the slope stopped 1 of 20 "
+        "slides and 1 of 20 slides still moved when the run ended. Lengthen the ground there (geometry.slope.plain). "
+        "Raise numerics.end_time."
+    ) in told
+    assert "Single slides, as far as they came, scatter by a standard deviation of 0.12 m; the shortest" in told
+    assert "the longest at least 10.38 m" in told
+    (total,) = by_source(ended(twenty, stopped=[0], moving=[19]), "Total")
+    assert total.interval == f"at least {lower:.2f} m"
+
+
+def test_the_effect_of_a_single_slide_cut_short_is_told_beside_the_interval(twenty):
+    """Had the slide of 10 m come twice as far, the mean of twenty would be 0.5 m larger."""
+    told = answer(ended(twenty, stopped=[0]))
+    lower, upper = stats.t.interval(0.95, 19, RUNOUTS.mean(), RUNOUTS.std(ddof=1) / np.sqrt(20))
+    assert f"The slide runs 10.19 m on average, {lower:.2f} to {upper:.2f} m with 95 % confidence" in told
+    assert (
+        "The wall ahead of the slope stopped 1 of 20 slides: had it come twice as far, the mean would be 0.50 m larger."
+    ) in told
+
+
+def test_a_median_holds_whatever_the_longest_slides_would_have_done(twenty):
+    """The interval of the median of twenty lies between the 6th and the 15th of them; only the 20th is cut short."""
+    median, far = headline.tiles(ended(twenty, stopped=[19]))[1:]
+    assert (median.value, median.remark) == ("10.2 m", "")
+    assert far.value == "at least 10.4 m"
+    assert far.remark == "lower bound: the wall ahead of the slope stopped 1 of 20 slides"
+    lowest = headline.tiles(ended(twenty, stopped=range(10)))[1]
+    assert lowest.interval == "at least 10.1 m"
+
+
+def test_walls_that_stop_all_slides_are_the_reason_that_is_given(twenty):
+    pairs = {
+        "paired_difference": ("pair", np.full(4, np.nan)),
+        "deterministic_paired_difference": ((), np.nan),
+        "other_release_final_runout": ((), 9.5),
+        "other_release_final_runout_mass": ((), 9.5),
+        "other_release_status": ((), int(Status.slid)),
+    }
+    stopped = ended(twenty, range(20), baseline=Status.reached_wall, **pairs)
+    (change,) = by_source(stopped, "Discretisation")
+    assert change.interval == "of the first 4 realizations walls stopped all 4 that slid"
+    (release,) = by_source(stopped, "Release")
+    assert (release.value, release.interval) == ("not estimated", 'this run reached a wall with "release"')
+    assert sentences(stopped) == [
+        "It takes 30 slides to say which property of the soil matters, and there are 20; what the inputs do is told by "
+        "slides that no wall stops, and walls stopped all of them."
+    ]
+    assert "With mean strengths everywhere it would run at least 9.00 m; 100 % of all" in answer(stopped)
+    assert by_source(stopped, "Sampling")[-1].quantity.endswith(
+        "of more than 9.00 m, as far as it came with mean strengths"
+    )
+
+
+@pytest.mark.parametrize(("baseline", "other"), [(Status.slid, Status.no_slide), (Status.no_slide, Status.slid)])
+def test_a_way_to_begin_that_decides_whether_the_slope_slides_is_told(twenty, baseline, other):
+    runs = {
+        "other_release_final_runout": ((), 5.0),
+        "other_release_final_runout_mass": ((), 5.0),
+        "other_release_status": ((), int(other)),
+    }
+    slides, stands = ("release", "ramp") if baseline in SLID else ("ramp", "release")
+    assert [each for each in reasons_for_doubt(ended(twenty, baseline=baseline, **runs)) if "How failure" in each] == [
+        f'How failure begins decides whether the slope slides: with mean strengths it slides with gravity = "{slides}" '
+        f'and stands with "{stands}". The probability of a slide holds for "release" alone; repeat the campaign with '
+        "the other, and compare."
+    ]
+    agreed = ended(twenty, **(runs | {"other_release_status": ((), int(Status.slid))}))
+    assert not any("How failure" in each for each in reasons_for_doubt(agreed))
+
+
+def test_slides_that_still_move_are_counted_not_shared_out(twenty):
+    """The made-up histories advance by a tenth of the run-out in the last second."""
+
+    def moving(*which):
+        return next(each for each in reasons_for_doubt(ended(twenty, moving=which)) if "still moved" in each)
+
+    assert moving(0).startswith("1 of 20 slides still moved when the run ended (numerics.end_time): its run-out is a")
+    assert moving(0).endswith("In the last 1 s its front advanced by 0.00 m.")
+    assert "2 of 20 slides still moved when the run ended (numerics.end_time): their run-outs are" in moving(0, 1)
+    assert "of these 2 advanced by more than 1 cm" in moving(0, 1)
