@@ -133,8 +133,19 @@ class March:
             return MarchEnd.DIVERGED
         if self.energy.is_created() or self.energy.is_lost():
             return self.blame_scheme()
-        self.reason = f"A particle left the grid at {self.time:.2f} s; widen the ground."
+        self.reason = f"A particle left the grid {self._way_out()} at {self.time:.2f} s; widen the ground there."
         return MarchEnd.LEFT_DOMAIN
+
+    def _way_out(self) -> str:
+        """Return on which side the particle that left is farthest outside."""
+        x, y = self.particles.x, self.particles.y
+        outside = {
+            "on the left": -x.min(),
+            "on the right": x.max() - self.grid.width,
+            "at the base": -y.min(),
+            "at the top": y.max() - self.grid.height,
+        }
+        return max(outside, key=outside.__getitem__)
 
     def _gravity(self) -> tuple[float, float]:
         """Return gravity now (m/s2) and its rate (m/s3)."""

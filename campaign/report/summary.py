@@ -2,7 +2,7 @@
 
 from textwrap import fill
 
-from campaign.report.answer import answer, outcomes
+from campaign.report.answer import Outcome, answer, outcomes
 from campaign.report.choices import modelling_choices
 from campaign.report.error_budget import Row, error_budget
 from campaign.report.inputs import sentences
@@ -23,7 +23,7 @@ def summary(results: Results) -> str:
         [
             *(fill(sentence, WIDTH) for sentence in (answer(results), *reasons_for_doubt(results))),
             f"How {counted(results.realizations, 'realization')} ended",
-            *(f"  {each.realizations:<6}{each.meaning}" for each in outcomes(results)),
+            *(_ended(each) for each in outcomes(results)),
             *_places(results),
             *(fill(sentence, WIDTH) for sentence in sentences(results)),
             f"Error budget at {100 * results.confidence:g} % confidence",
@@ -31,6 +31,14 @@ def summary(results: Results) -> str:
             "What the answer rests on",
             *(f"  {name:{width}}{choice}" for name, choice in choices.items()),
         ]
+    )
+
+
+def _ended(outcome: Outcome) -> str:
+    """Return how many ended in one way, and the most frequent reason."""
+    reason = f": {outcome.reasons[0]}" if outcome.reasons else ""
+    return fill(
+        f"{outcome.meaning}{reason}", WIDTH, initial_indent=f"  {outcome.realizations:<6}", subsequent_indent=" " * 8
     )
 
 

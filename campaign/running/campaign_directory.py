@@ -13,6 +13,7 @@ from campaign.running.level import Level
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import PreparedGround
+from campaign.statistics.stopping import too_few
 from campaign.statistics.tally import Tally
 from campaign.storage import manifest
 from campaign.storage.layout import RESULTS
@@ -89,6 +90,8 @@ class CampaignDirectory:
         earlier = f"; {tally.done} are finished already" if tally.done else ""
         most, ours = counted(tally.maximum, "realization"), counted(ranks, "rank")
         say(f"{self.scene.title}: at most {most} on {ours}, in {self.path}{earlier}.")
+        if few := too_few(tally.maximum, tally.rule):
+            say(few)
 
     def close(self) -> None:
         """Give the directory free."""

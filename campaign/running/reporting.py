@@ -64,7 +64,7 @@ def _simulate_slides(tally: Tally, means: Means) -> None:
     run = SideRun(
         scene=lambda: without_rule(results.scene, max(shown) + 1),
         directory=means.home / SNAPSHOTS,
-        announcement=f"Report: {counted(len(shown), 'slide')} again, to be drawn.",
+        announcement=f"Report: simulates {counted(len(shown), 'slide')} once more, for the drawings of single slides.",
         loss="Single slides cannot be drawn.",
         known=[summary for k, summary in tally.summaries.items() if k not in shown],
         breaks_off=True,

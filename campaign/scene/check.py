@@ -10,9 +10,9 @@ from pydantic import BaseModel, ValidationError
 from campaign.scene.document import Document, Location, location_of
 from campaign.scene.rules import cross_correlation, field, geometry, numerics, receptor, slide, soil
 from campaign.scene.scene import flatten
-from campaign.scene.wording import explain, wrong_value
+from campaign.scene.wording import explain, section_fields, wrong_value
 
-Key = tuple[str, ...]
+Key = tuple[str | int, ...]
 
 # A cell too large breaks rules of the ground as well, and is to be read first.
 SECTIONS = (numerics, geometry, slide, soil, field, cross_correlation, receptor)
@@ -47,8 +47,10 @@ def mistakes(document: Document, model: type[BaseModel], example: Document) -> l
 
 
 def _key(location: Location) -> Key:
-    """Return the key of a location; a mistake in a list, or in a table of an array, makes the whole faulty."""
-    return tuple(map(str, takewhile(lambda part: isinstance(part, str), location)))
+    """Return the key of a location; a mistake in a list makes the whole faulty, but one in a table of an array not."""
+    following = (*location[1:], None)
+    kept = takewhile(lambda pair: str in map(type, pair), zip(location, following, strict=True))
+    return tuple(part for part, _ in kept)
 
 
 def _geometry_choice(document: Document) -> list[str]:
@@ -82,18 +84,21 @@ def _sound_values(document: Document, model: type[BaseModel], faulty: set[Key], 
     """
     tables = deepcopy(document.tables)
     for key in faulty:
-        _replace(key, tables, example.tables)
+        _replace(key, tables, example.tables, section_fields(model, key[:-1]))
     values = flatten(model.model_validate(tables).model_dump(mode="json"))
-    dotted = [".".join(key) for key in faulty]
+    dotted = [".".join(map(str, key)) for key in faulty]
     return {name: value for name, value in values.items() if not any(_within(name, key) for key in dotted)}
 
 
-def _replace(key: Key, tables: dict[str, Any], example: Mapping[str, Any]) -> None:
+def _replace(key: Key, tables: Any, example: Mapping[Any, Any], fields: Mapping[Any, Any]) -> None:
+    """Replace a key by that of the example, or of its field where a scene need not have such a section."""
     *sections, name = key
     for section in sections:
         tables, example = tables[section], example.get(section, {})
     if name in example:
         tables[name] = deepcopy(example[name])
+    elif name in fields and fields[name].is_required() and fields[name].examples:
+        tables[name] = fields[name].examples[0]
     else:
         tables.pop(name, None)
 

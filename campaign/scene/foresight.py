@@ -46,13 +46,15 @@ MANY_HOURS = 1e5
 
 def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
     """Return what a user should know of a scene that can be run, but for `expected_of_slides`."""
+    toe = misplaced_toe(scene, look)
+    # The height above a toe that is not the slope's gives an area that is not, either.
+    fronts = (front_of_particles, front_of_the_slide) if toe is None or scene.slide.front_area is not None else ()
     return found(
         (
             far_from_failure(look),
             coarse_cells(scene, look),
-            misplaced_toe(scene, look),
-            front_of_particles(scene, look),
-            front_of_the_slide(scene, look),
+            toe,
+            *(front(scene, look) for front in fronts),
             short_interval(scene),
             damped_slide(scene),
             short_timeout(scene),

@@ -1,6 +1,7 @@
 """What will happen, in words, from a first look at a slope."""
 
 from campaign.scene.first_look import FirstLook
+from campaign.scene.limit_equilibrium import SlipCircle
 
 CERTAIN = 0.999
 """Probability from which on "nearly every" is said, and below whose complement "no"."""
@@ -23,7 +24,7 @@ def outlook(look: FirstLook, is_brittle: bool = False) -> str:
     if look.slide_probability >= CERTAIN:
         return f"Nearly every realization slides.{_end(look)}"
     if look.slide_probability > 1.0 - CERTAIN:
-        return f"Some realizations slide: {_between(look, is_brittle)}.{_end(look)}"
+        return f"Some realizations slide: {_between(look, look.peak, is_brittle)}.{_end(look)}"
     if look.peak.factor < BARELY_STABLE and look.residual is not None and look.residual.factor < 1.0:
         return (
             "Hardly any realization slides by this measure, but softening can start a slide where the factor of safety "
@@ -32,16 +33,26 @@ def outlook(look: FirstLook, is_brittle: bool = False) -> str:
     return "No realization is expected to slide."
 
 
-def _between(look: FirstLook, is_brittle: bool) -> str:
+def _between(look: FirstLook, peak: SlipCircle, is_brittle: bool) -> str:
+    """Say how many slide: to first order in the strengths if each had one everywhere, and what that leaves out."""
     share = look.slide_probability
-    one = f"{share:.0%} if each had one strength everywhere (standard deviation of the factor {look.spread:.2g})"
-    if is_brittle and look.residual is not None and look.residual.factor < 1.0:
+    percent = f"{share:.0%}" if share >= 0.01 else f"{share:.1%}"
+    one = f"{percent} if each had one strength everywhere (standard deviation of the factor {look.spread:.2g})"
+    averaged = f"{'more' if share > 0.5 else 'fewer'} where strength varies within the slope and averages out"
+    if not is_brittle or look.residual is None or look.residual.factor >= 1.0:
+        return f"{one}, {averaged}"
+    spreads = "it begins where the ground is weak and spreads"
+    if peak.factor <= PROGRESSIVE:
         return (
-            f"{one}, and more, perhaps most, where softening is as quick as here: it begins where the ground is weak "
-            f"and spreads, so that even slopes with a factor of about {PROGRESSIVE:g} may slide"
+            f"{one}, and more, perhaps most, where softening is as quick as here: {spreads}, so that even slopes with "
+            f"a factor of about {PROGRESSIVE:g} may slide"
         )
-    direction = "more" if share > 0.5 else "fewer"
-    return f"{one}, {direction} where strength varies within the slope and averages out"
+    if peak.factor < BARELY_STABLE:
+        return f"{one}, and perhaps more, since softening is quick here: {spreads}"
+    return (
+        f"{one}, {averaged}. Softening is quick here, and may add some: {spreads}, which was seen up to a factor of "
+        f"about {BARELY_STABLE:g}, and {peak.factor:.2f} is beyond"
+    )
 
 
 def _end(look: FirstLook) -> str:

@@ -2,7 +2,7 @@
 
 import re
 from functools import cache, partial
-from math import isfinite
+from math import inf, isfinite
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from pydantic import BeforeValidator
@@ -19,12 +19,15 @@ class Kind(NamedTuple):
     name: str
     si_unit: str
     example: str
+    least_unit: float = 0.0
+    """Of the units in which it is written, in SI: milli is meant to be mega, and mega milli, beyond these."""
+    largest_unit: float = inf
 
 
-LENGTH = Kind("a length", "m", "2 m")
+LENGTH = Kind("a length", "m", "2 m", largest_unit=1e5)
 AREA = Kind("an area", "m^2", "0.25 m^2")
-PRESSURE = Kind("a pressure", "Pa", "20 kPa")
-UNIT_WEIGHT = Kind("a unit weight", "N/m^3", "20 kN/m^3")
+PRESSURE = Kind("a pressure", "Pa", "20 kPa", least_unit=0.1)
+UNIT_WEIGHT = Kind("a unit weight", "N/m^3", "20 kN/m^3", least_unit=0.1)
 ANGLE = Kind("an angle", "rad", "10 deg")
 TIME = Kind("a time", "s", "10 s")
 DENSITY = Kind("a density", "kg/m^3", "2000 kg/m^3")
@@ -83,6 +86,12 @@ def si_value(text: Any, kind: Kind) -> float:
     unit = _known_unit(parts[2], kind)
     if _root(unit) != _root(_registry().Unit(kind.si_unit)):
         raise ValueError(f'that is {_name(unit)}, and {kind.name} is needed, for instance "{kind.example}"')
+    one = float(_registry().Quantity(1.0, unit).to(kind.si_unit).magnitude)
+    if not kind.least_unit <= one <= kind.largest_unit:
+        raise ValueError(
+            f"{shown(parts[2])} is {one:g} {kind.si_unit}, and {kind.name} is not written so: m is milli, M is mega; "
+            f'give for instance "{kind.example}"'
+        )
     return of_a_size(float(_registry().Quantity(float(parts[1]), unit).to(kind.si_unit).magnitude), kind.si_unit)
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from campaign.seeds import Stream, generator
 from campaign.statistics.intervals import Interval, Sample, mean_interval, normal_quantile, unknown
 
 RESAMPLES = 2000
@@ -151,7 +152,7 @@ def quantile_difference(first: Sample, other: Sample, probability: float, confid
 
 def _resampled(first: Sample, other: Sample, probability: float) -> tuple[Sample, Sample]:
     """Return differences of quantiles, of pairs and of two samples drawn by themselves, (RESAMPLES,) each."""
-    rng, n = np.random.default_rng(SEED), len(first)
+    rng, n = generator(SEED, Stream.BOOTSTRAP, 0), len(first)
     paired, unpaired = [], []
     for _ in range(RESAMPLES // CHUNK):
         one, two = rng.integers(n, size=(2, CHUNK, n))

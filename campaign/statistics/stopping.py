@@ -10,6 +10,7 @@ from functools import cached_property
 from campaign.statistics import proportions
 from campaign.statistics.intervals import Interval, kurtosis, mean_interval, variance_interval
 from campaign.statistics.outcomes import Outcomes
+from campaign.terminal import counted
 
 LOOKS_IN_A_ROW = 2
 """One look may satisfy the rule by luck; two in a row seldom do."""
@@ -140,6 +141,17 @@ class Checkpoint:
             and self.knows_slide_probability(rule)
             and self.slides_are_rare
         )
+
+
+def too_few(maximum: int, rule: StoppingRule) -> str:
+    """Say in a sentence that no campaign of at most `maximum` realizations can converge by its slides, "" if it can."""
+    needed = rule.minimum + (LOOKS_IN_A_ROW - 1) * rule.block
+    if maximum >= needed:
+        return ""
+    return (
+        f"At most {counted(maximum, 'realization')} cannot converge where the slope slides: campaign.minimum = "
+        f"{rule.minimum} and campaign.block = {rule.block} ask for {needed:,} or more."
+    )
 
 
 def is_regular(count: int, rule: StoppingRule) -> bool:

@@ -34,7 +34,14 @@ def chart(tradeoff: Tradeoff) -> Illustration:
     others = [trial for trial in compared if trial not in front]
     axes.plot([t.seconds for t in others], [t.rms(reference) for t in others], "o", color=GREY)
     if failed:
-        axes.plot([t.seconds for t in failed], [top] * len(failed), "x", color=RED, markersize=8, label="failed")
+        axes.plot(
+            [t.seconds for t in failed],
+            [top] * len(failed),
+            "x",
+            color=RED,
+            markersize=8,
+            label="no run-out to compare",
+        )
     axes.set(xscale="log", ylim=(-0.06 * top, 1.08 * top), xlabel="CPU time of a realization (s)")
     axes.set_ylabel("RMS difference of final run-out (m)")
     axes.margins(x=0.08)
@@ -45,7 +52,7 @@ def chart(tradeoff: Tradeoff) -> Illustration:
         f"Root mean square difference of the final run-out from that with {reference.setting}, over {n} random fields "
         f"and the run with mean strengths, against the CPU time of one of them. {tradeoff.advice}"
     )
-    alt = f"{len(compared)} settings by cost and difference, and {len(failed)} that failed."
+    alt = f"{len(compared)} settings by cost and difference, and {len(failed)} without a run-out."
     return Illustration(figure, caption, alt)
 
 

@@ -13,10 +13,10 @@ from campaign.files import write_atomically
 from campaign.results import dataset
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
-from campaign.terminal import say
+from campaign.terminal import counted, say
 from campaign.tradeoff.trials import Tradeoff, Trial, compare
 
-COLUMNS = ("setting", "cpu_seconds", "rms_difference_m", "mean_difference_m", "failures", "remark")
+COLUMNS = ("setting", "cpu_seconds", "rms_difference_m", "mean_difference_m", "without_runout", "remark")
 
 NAME = "tradeoff"
 
@@ -48,13 +48,15 @@ def rows(found: Tradeoff) -> list[tuple[str, ...]]:
 
 def table(found: Tradeoff) -> str:
     """Return the table for a terminal."""
-    titles = ("setting", "CPU s", "RMS m", "mean m", "failed", "")
+    titles = ("setting", "CPU s", "RMS m", "mean m", "no run-out", "")
     lines = [titles, *rows(found)]
-    width = max(len(line[0]) for line in lines)
-    return "\n".join(
-        f"{name:{width}} {cpu:>8} {rms:>8} {mean:>8} {failed:>7}  {remark}".rstrip()
+    width, fields = max(len(line[0]) for line in lines), len(found.reference.runouts) - 1
+    about = f"{counted(fields, 'realization')} and the run with mean strengths in each setting"
+    told = [
+        f"{name:{width}} {cpu:>8} {rms:>8} {mean:>8} {failed:>11}  {remark}".rstrip()
         for name, cpu, rms, mean, failed, remark in lines
-    )
+    ]
+    return "\n".join([about, *told])
 
 
 def as_csv(found: Tradeoff) -> str:
@@ -108,8 +110,8 @@ def _row(trial: Trial, found: Tradeoff) -> tuple[str, ...]:
 
 
 def _failed(trial: Trial) -> str:
-    """Say how many runs gave no run-out, of how many: the one with mean strengths is one of them."""
-    return f"{trial.failures} of {len(trial.runouts)}" if trial.failures else "0"
+    """Say how many runs gave no run-out, because they failed, stood or met a wall; that with mean strengths is one."""
+    return f"{trial.failures} of {counted(len(trial.runouts), 'run')}" if trial.failures else "0"
 
 
 def _draw(found: Tradeoff, path: Path) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from campaign.errors import RefusalError, SamplerError
-from campaign.record import FINAL_RUNOUT, UNHINDERED
+from campaign.record import FINAL_RUNOUT, UNHINDERED, Status
 from campaign.scene import Scene, kept_scene
 from campaign.scene.cost import realization_seconds
 from campaign.seeds import BASELINE
@@ -28,6 +28,9 @@ NEAR = 0.05
 """Of the reference's run-out: a setting this near is good enough to be recommended."""
 
 OWN = "as the scene says"
+
+WITHOUT_RUNOUT = {Status.no_slide: "the slope stands", Status.timeout: "took too long"}
+"""Ends of a run that has no run-out to compare, where its record does not say why."""
 
 CHOICES: dict[str, Sequence[str | int | float]] = {
     "numerics.basis": ("gimp", "linear", "bspline"),
@@ -53,7 +56,7 @@ class Trial:
     seconds
         Median CPU time of one of them in s; the estimate where none was run.
     reason
-        Why it failed or was left out, "" if neither.
+        Why runs have no run-out, or it was left out; "" if neither.
     was_run
         Whether it was tried at all.
     """
@@ -232,5 +235,5 @@ class Bench:
         except Exception as error:
             return np.nan, f"crashed ({error!r})"
         if record.status not in UNHINDERED:
-            return np.nan, without_debris(record.reason) or record.status.name
+            return np.nan, without_debris(record.reason) or WITHOUT_RUNOUT.get(record.status, record.status.name)
         return float(np.asarray(record.values[FINAL_RUNOUT[ground.scene.slide.front]])), ""

@@ -160,9 +160,20 @@ def test_left_domain_is_told_and_its_output_is_nan(start):
     history = march_to_rest(MODEL, flying, TIMES)
     assert history.end is MarchEnd.LEFT_DOMAIN
     assert history.has_failed
-    assert "left the grid" in history.reason
+    assert "left the grid at the top at" in history.reason
     assert np.isnan(history.runout[1:]).all()
     assert np.isnan(history.settle_time)
+
+
+@pytest.mark.parametrize(("speed", "side"), [(30.0, "on the right"), (-30.0, "on the left")])
+def test_the_side_is_told_on_which_ground_left(speed, side, start):
+    """A side wall holds nothing that is a cell beyond it."""
+    flying = copy_particles(start)
+    flying.x[0] = MODEL.surface.width if speed > 0.0 else 0.0
+    flying.velocity_x[0] = speed
+    march = March(MODEL, flying)
+    march.particles.x[0] += np.sign(speed) * 3.0 * MODEL.cell_size
+    assert march._way_out() == side
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])

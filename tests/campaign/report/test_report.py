@@ -106,13 +106,15 @@ def test_the_numbers_are_the_datasets(page, campaign):
         slides = data.final_runout_mass[data.slid]
         shortest, longest = float(slides.min()), float(slides.max())
         exceeding = float((data.final_runout_mass[data.usable] > deterministic).mean())
-    cut_short = int(np.isin(data.status, list(LOWER_BOUND)).sum())
-    bounds = f"at least {lower:.2f} m" if cut_short else f"{lower:.2f} to {upper:.2f} m"
+        cut_short = bool(np.isin(data.status.values, list(LOWER_BOUND)).any())
+        at_rest = int(data.deterministic_status) == Status.slid
+    least, bounds = ("at least ", f"at least {lower:.2f} m") if cut_short else ("", f"{lower:.2f} to {upper:.2f} m")
     words = f"{mean:.2f} m on average, {bounds} with 95 % confidence"
-    assert f"The slide runs {'at least ' if cut_short else ''}{words}" in page.text
+    assert f"The slide runs {least}{words}" in page.text
     assert f"sampling ±{(upper - lower) / 2:.2f} m; what the mesh adds is not estimated" in page.text
     assert f"a standard deviation of {std:.2f} m" in page.text
-    assert f"the shortest ran {shortest:.2f} m, the longest {longest:.2f} m" in page.text
+    assert f"the shortest ran {shortest:.2f} m, the longest {least}{longest:.2f} m" in page.text
+    assert at_rest
     assert f"would run {deterministic:.2f} m; {100 * exceeding:.0f} % of all realizations run farther" in page.text
 
 

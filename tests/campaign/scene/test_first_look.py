@@ -123,3 +123,18 @@ def test_quick_softening_spreads_and_is_not_averaged_out(peak, residual, words):
     told = outlook(look(peak, residual), is_brittle=True)
     assert re.search(words, told)
     assert ("fewer" in told) == (residual >= 1.0)
+
+
+@pytest.mark.parametrize(
+    ("peak", "share", "words"),
+    [
+        (1.25, "11%", "and perhaps more, since softening is quick here"),
+        (1.49, "0.7%", "fewer where strength varies .* was seen up to a factor of about 1.3, and 1.49 is beyond"),
+    ],
+)
+def test_what_softening_may_add_depends_on_the_factor_of_safety(peak, share, words):
+    """With a standard deviation of 0.2, factors of 1.25 and 1.49 lie 1.25 and 2.45 of them above 1."""
+    told = outlook(look(peak, 0.5)._replace(spread=0.2), is_brittle=True)
+    assert told.startswith(f"Some realizations slide: {share} if each had one strength everywhere")
+    assert re.search(words, told)
+    assert "perhaps most" not in told

@@ -57,9 +57,11 @@ def test_where_nothing_is_near_nothing_is_recommended(made_up):
 
 def test_failures_and_what_was_left_out_are_marked(made_up):
     by_setting = {row[0]: row[1:] for row in rows(made_up)}
-    assert by_setting["numerics.courant=0.9"] == ("1.5", "", "", "1 of 2", "energy was created")
+    assert by_setting["numerics.courant=0.9"] == ("1.5", "", "", "1 of 2 runs", "energy was created")
     assert by_setting["numerics.particles_per_cell=16"] == ("8", "", "", "", "left out")
     assert "energy was created" in table(made_up)
+    assert table(made_up).startswith("1 realization and the run with mean strengths in each setting\n")
+    assert "1 of 2 runs  energy was created" in table(made_up)
 
 
 def test_the_chart_shows_every_setting_that_was_run_and_crosses_the_failed(made_up):
