@@ -6,8 +6,24 @@ from contextlib import suppress
 from datetime import timedelta
 from io import TextIOWrapper
 from math import ceil, floor, log10
+from shutil import get_terminal_size
+from textwrap import fill
 
 CLEAR = "\x1b[H\x1b[J"  # cursor home, and nothing after it (ECMA-48)
+
+
+WIDEST = 100
+"""Characters of a line of text, at most."""
+
+
+def width() -> int:
+    """Return how many characters of text a line has: those of the terminal, up to `WIDEST`."""
+    return min(WIDEST, get_terminal_size((WIDEST, 24)).columns)
+
+
+def paragraph(heading: str, text: str, margin: int) -> str:
+    """Return a text behind its heading, in lines that begin at a margin."""
+    return fill(text, width(), initial_indent=f"  {heading}".ljust(margin), subsequent_indent=" " * margin)
 
 
 def duration(seconds: float) -> str:

@@ -1,7 +1,5 @@
 """The first look at a scene as text."""
 
-from textwrap import fill
-
 from campaign.scene import Scene
 from campaign.scene.cost import (
     core_seconds,
@@ -21,11 +19,10 @@ from campaign.scene.outlook import outlook
 from campaign.scene.sections import Softening
 from campaign.scene.softening import RING_SHEAR, is_brittle, softening_words
 from campaign.simulation.field_size import FieldSize
-from campaign.terminal import data_size, duration
+from campaign.terminal import data_size, duration, paragraph
 
-WIDTH = 100
 MARGIN = 20
-"""Characters of a line, and where its text begins behind the heading."""
+"""Characters before the text, which hold its heading."""
 
 
 def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
@@ -43,13 +40,8 @@ def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
         "memory": f"About {data_size(rank_bytes(scene) + size.least)} for each rank (process); the results take "
         f"{data_size(dataset_bytes(scene))}.",
     }
-    lines = [paragraph(heading, text) for heading, text in paragraphs.items()]
+    lines = [paragraph(heading, text, MARGIN) for heading, text in paragraphs.items()]
     return "\n".join([f"{scene.title}: a valid scene.", *lines])
-
-
-def paragraph(heading: str, text: str) -> str:
-    """Return a text behind its heading, in lines."""
-    return fill(text, WIDTH, initial_indent=f"  {heading}".ljust(MARGIN), subsequent_indent=" " * MARGIN)
 
 
 def _ground(look: FirstLook) -> str:

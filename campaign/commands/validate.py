@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from campaign.commands.scene_options import add_scene, read_scene
 from campaign.exit_codes import ExitCode
-from campaign.terminal import say
+from campaign.terminal import paragraph, say
 
 if TYPE_CHECKING:
     from campaign.scene import Scene
@@ -63,10 +63,10 @@ class Seen(NamedTuple):
 
 def _trial(scene: "Scene", look: "FirstLook") -> Seen | None:
     """Run the slide with mean strengths and say what it did; None if it tells nothing of slides."""
-    from campaign.commands.first_look_text import paragraph
+    from campaign.commands.first_look_text import MARGIN
     from campaign.commands.trial_text import trial_text
     from campaign.simulation.trial import foreseen, remarks, trial
 
     made = trial(scene, look)
-    say(paragraph("mean strengths", trial_text(scene, made)))
+    say(paragraph("mean strengths", trial_text(scene, made), MARGIN))
     return Seen(foreseen(scene, made), remarks(made)) if made is not None and made.slides else None

@@ -165,9 +165,7 @@ def _farthest(results: Results) -> str:
     far = estimates.total_quantile(results, estimates.FAR)
     if np.isnan(far.upper):
         return ""
-    least = ""
-    if estimates.is_least(results, estimates.FAR):
-        least = "a distance of at least "
+    least = "a distance of at least " if np.isinf(far.upper) else ""
     return f"{100 * estimates.FAR:g} % of the slides stop within {least}{far.estimate:.2f} m ({metres(far)})."
 
 

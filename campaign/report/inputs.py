@@ -131,7 +131,9 @@ def _followed(what: str, ranking: Ranking | None, named: list[str]) -> str:
     closest = ranking.correlation[place]
     most = " most closely" if len(named) > 1 else ""
     follows = f"follows the mean {named[place]} of all the ground that moves{most}"
-    means = f"the means of all {len(named)} properties explain" if len(named) > 1 else "that mean explains"
+    means = {1: "that mean explains", 2: "both means together explain"}.get(
+        len(named), f"all {len(named)} means together explain"
+    )
     if closest.lower <= 0 <= closest.upper:
         return f"{what} does not visibly follow the mean of a random property over all the ground that moves."
     bounds = f"{closest.estimate:+.2f}, between {closest.lower:+.2f} and {closest.upper:+.2f}"

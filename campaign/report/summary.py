@@ -10,36 +10,31 @@ from campaign.report.places import reach_estimates
 from campaign.report.reservations import reasons_for_doubt
 from campaign.results.results import Results
 from campaign.statistics.wording import chance, chances
-from campaign.terminal import counted
-
-WIDTH = 110
+from campaign.terminal import counted, paragraph, width
 
 
 def summary(results: Results) -> str:
     """Return the answer of a campaign, its error budget and what it rests on as text."""
     choices = modelling_choices(results.scene)
-    width = max(map(len, choices)) + 1
+    margin = max(map(len, choices)) + 3
     return "\n".join(
         [
-            *(fill(sentence, WIDTH) for sentence in (answer(results), *reasons_for_doubt(results))),
+            *(fill(sentence, width()) for sentence in (answer(results), *reasons_for_doubt(results))),
             f"How {counted(results.realizations, 'realization')} ended",
-            *(_ended(each) for each in outcomes(results)),
+            *(paragraph(f"{each.realizations}", _ended(each), 8) for each in outcomes(results)),
             *_places(results),
-            *(fill(sentence, WIDTH) for sentence in sentences(results)),
+            *(fill(sentence, width()) for sentence in sentences(results)),
             f"Error budget at {100 * results.confidence:g} % confidence",
-            *(f"  {row.source:16}{_words(row)}" for row in error_budget(results)),
+            *(paragraph(row.source, _words(row), 18) for row in error_budget(results)),
             "What the answer rests on",
-            *(f"  {name:{width}}{choice}" for name, choice in choices.items()),
+            *(paragraph(name, choice, margin) for name, choice in choices.items()),
         ]
     )
 
 
 def _ended(outcome: Outcome) -> str:
-    """Return how many ended in one way, and the most frequent reason."""
-    reason = f": {outcome.reasons[0]}" if outcome.reasons else ""
-    return fill(
-        f"{outcome.meaning}{reason}", WIDTH, initial_indent=f"  {outcome.realizations:<6}", subsequent_indent=" " * 8
-    )
+    """Return how realizations ended, and the most frequent reason."""
+    return f"{outcome.meaning}: {outcome.reasons[0]}" if outcome.reasons else outcome.meaning
 
 
 def _places(results: Results) -> list[str]:

@@ -31,8 +31,9 @@ def histogram(results: Results) -> Illustration:
     axes.set(xlabel="final run-out (m)", ylabel="slides (-)")
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=2)
     spread = estimates.std_runout(results)
+    so_far = "" if results.outcomes.bound_the_mean else ", as far as they came"
     caption = (
-        f"Final run-out of {counted(n, 'slide')}: mean {mean:.2f} m ({metres(estimates.mean_runout(results))}, "
+        f"Final run-out of {counted(n, 'slide')}{so_far}: mean {mean:.2f} m ({metres(estimates.mean_runout(results))}, "
         f"sampling alone), standard deviation {std:.2f} m ({metres(spread)}). Blue: the normal distribution with these "
         "two numbers. Dashed: the run with mean strengths everywhere."
     )

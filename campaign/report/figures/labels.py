@@ -43,9 +43,16 @@ class Placed(NamedTuple):
 
 
 def place_labels(labels: Sequence[Label], clear: Clear, scale: float, right: float) -> list[Placed]:
-    """Find room in the sky for each label, where `scale` inches are one metre and the drawing ends at `right` (m)."""
+    """Find room in the sky for each label, where `scale` inches are one metre and text may go on to `right` (m).
+
+    Text goes to the right of its place, over the lines of those beyond. Where there is no room for it, it goes to the
+    left, over the lines of those before, which therefore have their room first.
+    """
+    to_the_right = [label for label in labels if label.x + _width(label, scale) <= right]
+    to_the_left = [label for label in labels if label not in to_the_right]
+    ordered = [*sorted(to_the_right, key=lambda each: -each.x), *sorted(to_the_left, key=lambda each: each.x)]
     placed: list[Placed] = []
-    for label in sorted(labels, key=lambda each: -each.x):
+    for label in ordered:
         placed.append(_find(label, clear, scale, right, placed))
     return placed
 
@@ -69,7 +76,7 @@ def write_labels(axes: Axes, placed: Sequence[Placed], scale: float) -> None:
 
 def _find(label: Label, clear: Clear, scale: float, right: float, taken: Sequence[Placed]) -> Placed:
     """Return the lowest line in the sky that is free, to the right of the place if there is room."""
-    width, line = (LETTER * len(label.text) + 0.08) / scale, LINE / scale
+    width, line = _width(label, scale), LINE / scale
     alignment = "left" if label.x + width <= right else "right"
     left = label.x if alignment == "left" else label.x - width
     over = np.linspace(max(left, 0.0), min(left + width, right), 20)
@@ -77,6 +84,11 @@ def _find(label: Label, clear: Clear, scale: float, right: float, taken: Sequenc
     while any(_overlap(place, other, line) for other in taken):
         place = place._replace(bottom=place.bottom + 0.25 * line)
     return place
+
+
+def _width(label: Label, scale: float) -> float:
+    """Return the width of a label's text in m."""
+    return (LETTER * len(label.text) + 0.08) / scale
 
 
 def _overlap(one: Placed, other: Placed, line: float) -> bool:

@@ -50,7 +50,8 @@ def scene_section(scene: Scene, look: FirstLook, strengths: Strengths, realizati
     """Draw the section of a scene, and below it the strengths of a realization."""
     section = Section(look.surface, scene.numerics.cell, look.surface.width, SKY * look.surface.top, scene.receptor)
     scale = SHARE * WIDTH / section.right
-    placed = place_labels(_places(section), section.surface.height_at, scale, section.right)
+    # Text may go on beside the section, where the panels below have the bars of their colours.
+    placed = place_labels(_places(section), section.surface.height_at, scale, section.right / SHARE)
     sky = highest(placed, scale) + LEGEND / scale
     section = replace(section, top=max(section.top, sky))
     fields = [BY_NAME[name] for name in strengths.names]

@@ -15,9 +15,9 @@ RULES = Rules()
     "geometry.slope.crest",
     "geometry.slope.plain",
 )
-def _on_the_slope(stretch: list[float], *slope: float) -> str | None:
+def _on_the_slope(stretch: list[float], height: float, angle: float, crest: float, plain: float) -> str | None:
     any_foundation = 1.0  # it has no part in the width, and its mistakes hide none of a receptor
-    return _between_walls(stretch, slope_surface(*slope, any_foundation).width)
+    return _between_walls(stretch, slope_surface(height, angle, crest, plain, any_foundation).width)
 
 
 @RULES.on("receptor.*.x", "geometry.surface")

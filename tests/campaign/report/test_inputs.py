@@ -38,7 +38,7 @@ def test_the_input_with_the_largest_effect_is_named_first(results):
     )
     assert f"{effect.estimate:+.2f} m ({effect.lower:+.2f} to {effect.upper:+.2f} m)" in told[0]
     assert "follows the mean peak cohesion of all the ground that moves most closely" in told[1]
-    assert "; the means of all 2 properties explain " in told[1]
+    assert "; both means together explain " in told[1]
     assert told[2].startswith("The same properties place by place, instead of their means, explain ")
     assert "(peak cohesion around x = " in told[2]
 

@@ -104,7 +104,13 @@ def test_a_median_holds_whatever_the_longest_slides_would_have_done(twenty):
     assert far.value == "at least 10.4 m"
     assert far.remark == "lower bound: the wall ahead of the slope stopped 1 of 20 slides"
     lowest = headline.tiles(ended(twenty, stopped=range(10)))[1]
-    assert lowest.interval == "at least 10.1 m"
+    assert (lowest.value, lowest.interval) == ("at least 10.2 m", "at least 10.1 m")
+    few = headline.tiles(ended(twenty, stopped=[3]))[1]
+    assert (few.value, few.interval, few.remark) == (
+        "10.2 m",
+        "10.1 to 10.3 m",
+        "the interval allows for 1 slide cut short",
+    )
 
 
 def test_walls_that_stop_all_slides_are_the_reason_that_is_given(twenty):

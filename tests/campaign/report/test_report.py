@@ -164,8 +164,8 @@ def test_the_chapters_stand_in_their_order(page):
 def test_the_first_screen_has_the_answer_before_the_words(page):
     first = page.text[: page.text.index("1. Where")]
     assert re.search(r"Probability of a slide ?at least 74 %", first)
-    assert re.search(r"Half of the fronts stop within ?\d+\.\d m", first)
-    assert re.search(r"95 % stop within ?\d+\.\d m ?at least", first)
+    assert re.search(r"Half of the fronts stop within ?(at least )?\d+\.\d m", first)
+    assert re.search(r"95 % stop within ?(at least )?\d+\.\d m ?at least", first)
 
 
 def test_the_films_hold_each_frame_of_each_area(page):
@@ -309,6 +309,7 @@ def test_a_discretisation_error_is_used_where_it_is_known(campaign):
     pairs = {
         "paired_difference": ("pair", [0.5, 1.0, np.nan, 1.5]),
         "deterministic_paired_difference": ((), 0.7),
+        "status": ("realization", np.full(12, int(Status.slid))),  # with one cut short there is no upper bound
     }
     known = Results(results.data.assign(pairs), results.scene)
     mean, change = mean_interval(results.slide_runouts, 0.95), stats.t.ppf(0.975, 2) * 0.5 / np.sqrt(3)

@@ -77,17 +77,15 @@ def test_every_receptor_off_the_ground_is_named(tmp_path: Path) -> None:
 
 def test_other_mistakes_hide_no_receptor_off_the_ground(tmp_path: Path) -> None:
     """A receptor with a mistake of its own, one without a name, and a foundation without a unit."""
-    off = ROAD.replace("42", "80")
-    path = with_receptors(
-        tmp_path, f"{ROAD}colour = 3\n" + off.replace("road", "school") + '[[receptor]]\nx = "90 m"\n'
-    )
+    school = ROAD.replace("42", "80").replace("road", "school")
+    path = with_receptors(tmp_path, f'{ROAD}colour = 3\n{school}[[receptor]]\nx = "90 m"\n')
     told = complaints("geometry.slope.foundation=4", source=path)
-    assert [each for each in told if "must lie between the walls" in each] == [
-        f'receptor.x (slope.toml, line {line_of(text, path)}, receptor {number}) is "{text[5:]}, but it must lie between '
-        "the walls, at 0 m and 75 m; move it, or widen the ground."
-        for number, text in ((2, 'x = "80 m"'), (3, 'x = "90 m"'))
-    ]
     assert len(told) == 5
+    assert [each for each in told if "must lie between the walls" in each] == [
+        f"receptor.x (slope.toml, line {line_of(f'x = {place}', path)}, receptor {number}) is {place}, but it must lie "
+        "between the walls, at 0 m and 75 m; move it, or widen the ground."
+        for number, place in ((2, '"80 m"'), (3, '"90 m"'))
+    ]
 
 
 def test_walls_of_a_surface_bound_receptors_as_well() -> None:
