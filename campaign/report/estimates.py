@@ -26,7 +26,7 @@ def total_runout(results: Results) -> Interval:
 
     It has no upper bound where more than a few slides were cut short.
     """
-    return total_mean(mean_runout(results), results.discretisation, results.outcomes)
+    return total_mean(mean_runout(results), results.discretisation, results.outcomes.bound_the_mean)
 
 
 def std_runout(results: Results) -> Interval:

@@ -42,7 +42,7 @@ def of_total(history: ConvergenceHistory, found: Discretisation | None) -> Varia
     """Return the mean run-out with all that is known of its error."""
     lower, upper = history.mean_ci[-1].tolist()
     sampled = Interval(float(history.mean[-1]), lower, upper, int(history.n_slides[-1]))
-    total = total_mean(sampled, found, history.outcomes)
+    total = total_mean(sampled, found, history.mean_is_bounded)
     mean = variable((), total.estimate, "m", "mean final run-out of the slides")
     mean.attrs["comment"] = TOTAL
     return {

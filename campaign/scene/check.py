@@ -83,11 +83,16 @@ def _sound_values(document: Document, model: type[BaseModel], faulty: set[Key], 
     Faulty keys are replaced by those of the example, which makes the whole valid, and then left out.
     """
     tables = deepcopy(document.tables)
-    for key in faulty:
+    for key in _outermost(faulty):
         _replace(key, tables, example.tables, section_fields(model, key[:-1]))
     values = flatten(model.model_validate(tables).model_dump(mode="json"))
     dotted = [".".join(map(str, key)) for key in faulty]
     return {name: value for name, value in values.items() if not any(_within(name, key) for key in dotted)}
+
+
+def _outermost(keys: set[Key]) -> set[Key]:
+    """Return the keys that lie within none of the others."""
+    return {key for key in keys if not any(key[:length] in keys for length in range(1, len(key)))}
 
 
 def _replace(key: Key, tables: Any, example: Mapping[Any, Any], fields: Mapping[Any, Any]) -> None:

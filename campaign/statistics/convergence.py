@@ -29,8 +29,8 @@ class ConvergenceHistory:
         Lower and upper bounds. NaN: not enough yet.
     predicted_n : array (checkpoint,)
         Realizations at which the rule would stop if the estimates stayed as they are.
-    outcomes : Outcomes
-        At the last of them.
+    mean_is_bounded : bool
+        Whether so few of the slides were cut short that the last mean has an upper bound.
     converged_at : int or None
         The number of realizations the rule asked for; realizations from this id on are not part of the result.
     verdict : str
@@ -51,7 +51,7 @@ class ConvergenceHistory:
     variance: Sample
     variance_ci: Sample
     predicted_n: Sample
-    outcomes: Outcomes
+    mean_is_bounded: bool
     converged_at: int | None
     verdict: str
 
@@ -112,7 +112,7 @@ def history_of(looks: list[Checkpoint], latest: Checkpoint, rule: StoppingRule) 
         variance=variance,
         variance_ci=variance_ci,
         predicted_n=np.array([predicted_stop(each, rule) for each in rows]),
-        outcomes=rows[-1].outcomes,
+        mean_is_bounded=rows[-1].outcomes.bound_the_mean,
         converged_at=rows[-1].realizations if converged else None,
         verdict=stopping_verdict(rows[-1], rule, converged),
     )

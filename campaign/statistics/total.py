@@ -4,7 +4,6 @@ import math
 
 from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.intervals import Interval
-from campaign.statistics.outcomes import Outcomes
 
 FARTHEST = 2.0
 """How many times the change with half the cell smaller cells may change the run-out: 2 is first order."""
@@ -59,14 +58,14 @@ def total_interval(mean: Interval, found: Discretisation | None) -> Interval:
     return Interval(mean.estimate, 0.0 if lower < 0.0 else lower, upper, mean.n)
 
 
-def total_mean(mean: Interval, found: Discretisation | None, outcomes: Outcomes) -> Interval:
-    """Return the mean run-out with its total interval; infinite above where more than a few were cut short.
+def total_mean(mean: Interval, found: Discretisation | None, is_bounded: bool) -> Interval:
+    """Return the mean run-out with its total interval; infinite above unless bounded, as with more than a few cut short.
 
     Whatever slides were cut short, the mean of what they came is no more than that of what they would have come, and so
     is the lower bound.
     """
     total = total_interval(mean, found)
-    return total if outcomes.bound_the_mean else total._replace(upper=math.inf)
+    return total if is_bounded else total._replace(upper=math.inf)
 
 
 def has_mesh_error(found: Discretisation | None) -> bool:
