@@ -59,7 +59,7 @@ def total_interval(mean: Interval, found: Discretisation | None) -> Interval:
 
 
 def total_mean(mean: Interval, found: Discretisation | None, is_bounded: bool) -> Interval:
-    """Return the mean run-out with its total interval; infinite above unless bounded, as with more than a few cut short.
+    """Return the mean run-out with its total interval; infinite above unless bounded, as where many were cut short.
 
     Whatever slides were cut short, the mean of what they came is no more than that of what they would have come, and so
     is the lower bound.

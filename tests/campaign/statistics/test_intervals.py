@@ -144,3 +144,13 @@ def test_intervals_do_not_depend_on_the_unit(seed, n, scale, shift):
     mean, variance = np.array(mean_interval(values, 0.95)[:3]), np.array(variance_interval(values, 0.95)[:3])
     np.testing.assert_allclose(mean_interval(moved, 0.95)[:3], scale * mean + shift, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(variance_interval(moved, 0.95)[:3], scale**2 * variance, rtol=1e-6)
+
+
+def test_the_interval_of_a_quantile_holds_however_far_lower_bounds_are_off():
+    """Of 100 values the interval of the median is from the 40th to the 61st; six lower bounds count as above it."""
+    values, is_least = np.arange(1.0, 101.0), np.zeros(100, dtype=bool)
+    is_least[:6] = True
+    assert quantile_interval(values, 0.5, 0.95)[1:3] == (40.0, 61.0)
+    assert quantile_interval(values, 0.5, 0.95, is_least)[1:3] == (40.0, 67.0)
+    is_least[:40] = True
+    assert quantile_interval(values, 0.5, 0.95, is_least)[1:3] == (40.0, math.inf)

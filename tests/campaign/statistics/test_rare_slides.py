@@ -6,7 +6,7 @@ from tallies import summary_of
 
 from campaign.record import Status
 from campaign.seeds import BASELINE
-from campaign.statistics.stopping import StoppingRule
+from campaign.statistics.stopping import StoppingRule, too_few
 from campaign.statistics.tally import Tally
 
 RULE = StoppingRule(0.02, 0.4, 0.95, 100, 25, 0.1)
@@ -122,3 +122,25 @@ def test_exceedance_is_of_all_realizations():
 def test_beyond_a_deterministic_run_that_stays_are_all_slides():
     history = campaign([Status.slid] * 45 + [Status.no_slide] * 55, baseline=0.0).history()
     assert history.exceedance[-1] == history.slide_probability[-1] == 0.45
+
+
+@pytest.mark.parametrize(
+    ("count", "words"),
+    [
+        (20, "at most 17 %; 36 without a slide bound it by 10 %, which is asked for"),
+        (40, "at most 8.8 %, as asked for; whether that is enough is decided every 25 realizations"),
+    ],
+)
+def test_a_slope_that_stands_is_not_asked_for_mean_and_variance(count, words):
+    """Of 20 the bound is 1 - 0.025^(1/20) = 17 %; 36 is the least n with 0.025^(1/n) >= 0.9."""
+    verdict = campaign([Status.no_slide] * count).history().verdict
+    assert verdict == f"not converged after {count} realizations: none slid, so the probability of a slide is {words}"
+
+
+def test_too_few_realizations_are_told_before_they_are_computed():
+    """Two looks in a row, at 100 and at 125."""
+    assert too_few(125, RULE) == ""
+    assert too_few(124, RULE) == (
+        "At most 124 realizations cannot converge where the slope slides: campaign.minimum = 100 and campaign.block = "
+        "25 ask for 125 or more."
+    )

@@ -7,7 +7,7 @@ import pytest
 
 from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.intervals import Interval, mean_interval
-from campaign.statistics.total import total_interval
+from campaign.statistics.total import total_interval, total_mean
 
 MEAN = Interval(11.0, 10.8, 11.2, 100)
 
@@ -88,3 +88,8 @@ def test_it_is_hardly_wider_than_the_change_and_both_errors():
     rng = np.random.default_rng(12)
     total = total_interval(mean_interval(rng.normal(10.0, 1.0, 100), 0.95), pairs(*rng.normal(1.0, 0.3, 24)))
     assert total.half_width < 1.4
+
+
+def test_slides_cut_short_leave_the_lower_bound_and_no_upper_one():
+    assert total_mean(MEAN, pairs(-0.6, -0.6, -0.6), is_bounded=True) == total_interval(MEAN, pairs(-0.6, -0.6, -0.6))
+    assert total_mean(MEAN, None, is_bounded=False) == (11.0, 10.8, math.inf, 100)
