@@ -40,20 +40,12 @@ def _receptors(made: Trial) -> str:
     if not asked:
         return ""
     reached = np.asarray(made.record.values["front_reaches"]) == 1
+    by_then = "by then " if made.record.status in LOWER_BOUND else ""
     there = [each for each, hit in zip(asked, reached, strict=True) if hit]
     if not there:
-        return f" It {_not_reached(made)} {_listed(asked)}."
+        return f" {'By then it has not reached' if by_then else 'It does not reach'} {_listed(asked)}."
     others = [each for each in asked if each not in there]
-    return f" It reaches {_listed(there)}{_others(made, others)}."
-
-
-def _others(made: Trial, others: Sequence[Receptor]) -> str:
-    return f", and {_not_reached(made)} {_listed(others)}" if others else ""
-
-
-def _not_reached(made: Trial) -> str:
-    """Say that it does not reach a place, or has not by then where it would have come farther."""
-    return "has not reached by then" if made.record.status in LOWER_BOUND else "does not reach"
+    return f" It reaches {_listed(there)}{f', {by_then}not {_listed(others)}' if others else ''}."
 
 
 def _listed(receptors: Sequence[Receptor]) -> str:

@@ -271,6 +271,7 @@ def test_a_wall_makes_lower_bounds_and_is_told(tmp_path, ground):
     runouts = [*[8.0] * 9, *[10.0] * 8, *[7.5] * 3]
     page = made_up_page(tmp_path, ground, runouts, [Status.slid] * 17 + [Status.reached_wall] * 3)
     assert "nothing bounds the mean from above: a wall of the model stopped 3 of 20 slides." in page.text
+    assert re.search(r"Read with care\s+A wall of the model stopped 3 of 20 slides, which would have come", page.text)
     assert "40 % of all realizations run farther (22 to 74 %)" in page.text
 
 
