@@ -1,11 +1,15 @@
 """What can be run but hardly be meant is said with key, value and remedy; a sound scene gets no warning."""
 
+import re
+
 import pytest
 
-from campaign.scene import load_scene
+from campaign.scene import load_scene, scene_of
 from campaign.scene.complaints import sentences
+from campaign.scene.document import read_document
 from campaign.scene.first_look import look_at
 from campaign.scene.foresight import expected_of_slides, warnings
+from campaign.scene.front import front_of_particles
 
 PROFILE = 'geometry={surface=[["0 m","19 m"],["20 m","19 m"],["35 m","4 m"],["45 m","4 m"]]}'
 
@@ -70,3 +74,14 @@ def test_the_toe_of_a_benched_slope_is_where_its_critical_circle_comes_out():
     assert look.surface.toe_x == 64.0
     assert look.peak.exit == pytest.approx(64.0, abs=1.0)
     assert not [text for text in warned(BENCHED) if "toe" in text]
+
+
+def test_a_toe_that_is_not_the_slopes_is_told_and_not_the_front_that_follows_from_it():
+    """By default the area ahead of the front grows with the height above the toe, which is 1 m on a bench here."""
+    points = [(0, 14), (10, 14), (12, 13), (60, 13), (75, 4), (95, 4)]
+    bench = f"geometry={{surface={[[f'{x} m', f'{y} m'] for x, y in points]}}}"
+    text = re.sub(r"(?m)^front_area.*\n", "", read_document("ma2023").text)
+    scene = scene_of(text, [bench, "geometry.toe=12 m"])
+    look = look_at(scene)
+    assert front_of_particles(scene, look) is not None
+    assert [complaint.key for complaint in warnings(scene, look)] == ["geometry.toe"]
