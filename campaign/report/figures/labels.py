@@ -46,14 +46,19 @@ def place_labels(labels: Sequence[Label], clear: Clear, scale: float, right: flo
     """Find room in the sky for each label, where `scale` inches are one metre and text may go on to `right` (m).
 
     Text goes to the right of its place, over the lines of those beyond. Where there is no room for it, it goes to the
-    left, over the lines of those before, which therefore have their room first.
+    left, and so does that of places before, as far as it would lie in the way of such a line.
     """
-    to_the_right = [label for label in labels if label.x + _width(label, scale) <= right]
-    to_the_left = [label for label in labels if label not in to_the_right]
-    ordered = [*sorted(to_the_right, key=lambda each: -each.x), *sorted(to_the_left, key=lambda each: each.x)]
+    ends = {label: label.x + _width(label, scale) for label in labels}
+    leftmost, to_the_left = right, []
+    for label in sorted(labels, key=lambda each: -each.x):
+        if ends[label] > leftmost:
+            to_the_left.append(label)
+            leftmost = label.x
+    to_the_right = [label for label in labels if label not in to_the_left]
+    ordered = [*sorted(to_the_right, key=lambda each: -each.x), *reversed(to_the_left)]
     placed: list[Placed] = []
     for label in ordered:
-        placed.append(_find(label, clear, scale, right, placed))
+        placed.append(_find(label, clear, scale, right, placed, "right" if label in to_the_left else "left"))
     return placed
 
 
@@ -74,10 +79,9 @@ def write_labels(axes: Axes, placed: Sequence[Placed], scale: float) -> None:
         on_hover(text, label.hover)
 
 
-def _find(label: Label, clear: Clear, scale: float, right: float, taken: Sequence[Placed]) -> Placed:
-    """Return the lowest line in the sky that is free, to the right of the place if there is room."""
+def _find(label: Label, clear: Clear, scale: float, right: float, taken: Sequence[Placed], alignment: str) -> Placed:
+    """Return the lowest line in the sky that is free, for text that is aligned at its left or right end."""
     width, line = _width(label, scale), LINE / scale
-    alignment = "left" if label.x + width <= right else "right"
     left = label.x if alignment == "left" else label.x - width
     over = np.linspace(max(left, 0.0), min(left + width, right), 20)
     place = Placed(label, left, left + width, float(clear(over).max()) + 0.7 * line, alignment)
