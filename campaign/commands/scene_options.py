@@ -14,6 +14,9 @@ def add_scene(parser: argparse.ArgumentParser, metavar: str = "SCENE|DIR") -> No
     also = "; or the results directory of a campaign, for its scene" if "DIR" in metavar else ""
     parser.add_argument("scene", metavar=metavar, help=what + also)
     parser.add_argument("--realizations", metavar="N", type=int, help="at most this many")
+    parser.add_argument(
+        "--accuracy", metavar="SHARE|LENGTH", help='total error of the mean run-out, for instance "3 %%" or "0.3 m"'
+    )
     parser.add_argument("--seed", metavar="S", type=int, help="seed of the random fields")
     parser.add_argument(
         "--set", metavar="KEY=VALUE", action="append", default=[], help='for instance soil.cohesion.mean="25 kPa"'
@@ -22,7 +25,8 @@ def add_scene(parser: argparse.ArgumentParser, metavar: str = "SCENE|DIR") -> No
 
 def overrides(options: argparse.Namespace) -> list[str]:
     """Return the overrides in the order of their precedence."""
-    named = {"campaign.realizations": options.realizations, "campaign.seed": options.seed}
+    given = {name: getattr(options, name) for name in ("realizations", "accuracy", "seed")}
+    named = {f"campaign.{name}": value for name, value in given.items()}
     return [*options.set, *(f"{key}={value}" for key, value in named.items() if value is not None)]
 
 

@@ -20,9 +20,14 @@ class Lognormal:
         """Standard deviation of ln X."""
         return sqrt(log1p(self.cov**2))
 
+    @property
+    def log_mean(self) -> float:
+        """Mean of ln X."""
+        return log(self.mean) - self.sigma**2 / 2
+
     def __call__(self, gaussian: Array) -> Array:
         """Turn standard Gaussian values into values of this distribution."""
-        return np.asarray(np.exp(log(self.mean) - self.sigma**2 / 2 + self.sigma * gaussian))
+        return np.asarray(np.exp(self.log_mean + self.sigma * gaussian))
 
 
 def attainable_correlations(first: Lognormal, second: Lognormal) -> tuple[float, float]:

@@ -28,7 +28,7 @@ class BeyondSampling(NamedTuple):
     inputs: InputEffects | None = None
 
 
-def beyond_sampling(scene: Scene, tally: Tally, means: Means) -> BeyondSampling:
+def beyond_sampling(scene: Scene, tally: Tally, means: Means, repeated: int | None = None) -> BeyondSampling:
     """Measure the errors beyond sampling of a whole campaign, and what it owes to its inputs.
 
     Parameters
@@ -37,11 +37,13 @@ def beyond_sampling(scene: Scene, tally: Tally, means: Means) -> BeyondSampling:
         Of the campaign.
     means
         To compute with.
+    repeated
+        Number of realizations that half the cell has run already, where an accuracy asked for them.
     """
     if tally.too_many_failed:
         return BeyondSampling("")
     release, found, lacking = None, None, ""
-    if pairs := min(scene.campaign.discretisation_pairs, tally.prefix):
+    if pairs := repeated or min(scene.campaign.discretisation_pairs, tally.prefix):
         release, lacking = _with_other_release(scene, means)
         found, stopped = _with_half_cell(scene, tally, pairs, means.after(lacking))
         lacking = lacking or stopped

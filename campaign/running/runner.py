@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
+from campaign.running.accuracy import Sampled, to_accuracy
 from campaign.running.beyond_sampling import BeyondSampling, beyond_sampling
 from campaign.running.campaign_directory import CampaignDirectory, opened
 from campaign.running.crew import Alone, Crew, Order
@@ -124,23 +125,31 @@ def conduct(
     tally = directory.level.tally()
     directory.announce(crew.size, tally)
 
+    is_rehearsed = False
+
     def hand_out(level: Level, ground: PreparedGround, tally: Tally, breaks_off: bool = False) -> str:
+        nonlocal is_rehearsed
         wanted, timeout, is_main = level.scene, level.scene.campaign.realization_timeout, level is directory.level
-        rehearses = is_main and tally.size is None
+        rehearses = tally.size is None and not is_rehearsed
+        is_rehearsed = is_rehearsed or rehearses
         order = Order(ground, level.directory, wanted.digest(), timeout, end, breaks_off, rehearses)
         dispatcher = Dispatcher(tally, obstacle, level.tidier(tally))
         progress = Progress(tally, partial(seconds_beyond_sampling, wanted, crew.size) if is_main else nothing_ahead)
         crew.compute(order, dispatcher, lambda: dispatcher.observe(progress.tick))
         return dispatcher.stopped
 
-    stopped = hand_out(directory.level, ground, tally)
-    means = Means(directory.path, prepare_unless_stopped, hand_out, stopped, directory.level.retry)
-    beyond = BeyondSampling(stopped)
+    means = Means(directory.path, prepare_unless_stopped, hand_out, "", directory.level.retry)
+    if directory.scene.campaign.accuracy is None:
+        sampled = Sampled(tally, hand_out(directory.level, ground, tally))
+    else:
+        sampled = to_accuracy(directory.scene, means)
+    tally, means = sampled.tally, means.after(sampled.stopped)
+    beyond = BeyondSampling(sampled.stopped)
     if tally.size is not None:
-        beyond = beyond_sampling(directory.scene, tally, means)
+        beyond = beyond_sampling(directory.scene, tally, means, sampled.aim and sampled.aim.pairs)
     means = means.after(beyond.stopped)
     draw = None if write_report is None else partial(draw_report, tally, means, stop, write_report)
-    return directory.conclude(ground, tally, beyond, draw)
+    return directory.conclude(ground, sampled, beyond, draw)
 
 
 def _obstacle(stop: StopRequest, end: float, lost: Callable[[], str]) -> Callable[[float], str]:

@@ -4,11 +4,11 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from itertools import pairwise
 from math import isfinite, radians
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
-from campaign.scene.units import LENGTH, Angle, Area, Kind, Length, Pressure, Time, of_a_size, si_value
+from campaign.scene.units import LENGTH, NUMBER, Angle, Area, Kind, Length, Pressure, Time, of_a_size, si_value
 
 LARGEST_COV = 10.0
 """Beyond which a coefficient of variation is one in per cent."""
@@ -61,6 +61,39 @@ def _stretch(written: Any, kind: Kind) -> tuple[float, float]:
     if isinstance(written, list) and near >= far:
         raise ValueError("the range must increase; write its left end first, or a single place without brackets")
     return near, far
+
+
+class Tolerance(NamedTuple):
+    """How far off a mean may be: in m, or as a share of it."""
+
+    value: float
+    is_relative: bool
+
+    def metres(self, mean: float) -> float:
+        """Return it in m for a mean in m."""
+        return self.value * mean if self.is_relative else self.value
+
+
+def tolerance(text: str) -> Tolerance:
+    """Read a share, "3 %", or a length, "0.3 m".
+
+    Raises
+    ------
+    ValueError
+        For what is neither, and for a share of 0 or of 100 % or more, worded to follow "KEY is VALUE, but".
+    """
+    kind = NUMBER if isinstance(text, str) and "%" in text else LENGTH
+    value = si_value(text, kind)
+    if value <= 0.0 or (kind is NUMBER and value >= 1.0):
+        raise ValueError("it must be above 0, and a share below 100 %")
+    return Tolerance(value, kind is NUMBER)
+
+
+def _tolerable(written: Any) -> Any:
+    if not isinstance(written, str):
+        raise ValueError('it must be a share or a length of the mean run-out, for instance "3 %" or "0.3 m"')
+    tolerance(written)
+    return written
 
 
 def _listed(written: Any) -> Any:
@@ -116,4 +149,5 @@ Profile = Annotated[
 
 Name = Annotated[str, must("be a line of text", lambda text: bool(text.strip()) and text.isprintable())]
 Stretch = Annotated[tuple[float, float], BeforeValidator(partial(_stretch, kind=LENGTH))]
+ToleranceText = Annotated[str, BeforeValidator(_tolerable)]
 LISTED = BeforeValidator(_listed)

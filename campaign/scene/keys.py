@@ -26,6 +26,7 @@ TAKES = {
     "geometry.surface": "points of x and elevation",
     "receptor.x": "a place, or both ends of a range",
     "field.correlation": ", ".join(f'"{name}"' for name in KERNELS),
+    "campaign.accuracy": "a share or a length",
     "soil.softening.rate": "a number",
     "soil.cohesion.residual_cov": "a number",
     "soil.friction_angle.residual_cov": "a number",

@@ -29,6 +29,7 @@ from campaign.scene.constraints import (
     Seed,
     SmallFraction,
     Stretch,
+    ToleranceText,
     must,
     one_of,
 )
@@ -186,9 +187,14 @@ class Receptor(Section):
 
 
 class Campaign(Section):
-    """How many realizations, from which seed, and when they are enough."""
+    """How many realizations, from which seed, and when they are enough.
+
+    With `accuracy` that is when the mean run-out is known so well for sampling and mesh together, and the tolerances
+    are not asked.
+    """
 
     realizations: PositiveCount = 1000
+    accuracy: ToleranceText | None = None
     seed: Seed = 0
     mean_tolerance: OpenFraction = 0.01
     variance_tolerance: OpenFraction = 0.25

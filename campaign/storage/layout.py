@@ -19,6 +19,9 @@ CRASHES = "crashes"
 HALF_CELL = "half-cell"
 """Holds the realizations repeated with half the cell, in the same layout."""
 
+MODELS = "models"
+"""Holds a directory for each other model of a scene, named by what it is, in the same layout."""
+
 OTHER_RELEASE = "other-release"
 """Holds the deterministic run with the other release protocol, in the same layout."""
 

@@ -1,0 +1,62 @@
+"""The random field itself as the cheapest model: what it foretells of a run-out, whose mean is known exactly.
+
+The logarithms of the properties are Gaussian with known means, so the mean of any linear function of them is known
+without a single run. What ridge regression on a coarse map of the field foretells of the run-out is taken off each
+realization, and its known mean is put in its place. The realizations are fit by those of the other folds only: then no
+value has shaped what it is compared with, and the mean stays unbiased (cross-fitting; Wager et al. 2016, PNAS 113,
+12673-12678).
+"""
+
+import numpy as np
+
+from campaign.fields.properties import marginals
+from campaign.scene import Scene
+from campaign.statistics.intervals import Sample
+from campaign.statistics.ridge import Matrix, ridge
+
+FOLDS = 10
+
+FEWEST = 50
+"""Realizations, of fewer the map foretells too little."""
+
+
+def deviations(field_maps: Matrix, scene: Scene) -> Matrix:
+    """Return ln(property) in boxes of the ground as deviations from the mean, in standard deviations of a point.
+
+    Parameters
+    ----------
+    field_maps : array (n, property, row, column)
+        Means of ln(property) over the boxes; NaN without ground, and in realizations without a result.
+    scene : Scene
+        Gives the distributions.
+
+    Returns
+    -------
+    array (n, m)
+        Of the boxes with ground.
+    """
+    laws = [*marginals(scene).values()]
+    mean = np.array([law.log_mean for law in laws])[:, None, None]
+    sigma = np.array([law.sigma for law in laws])[:, None, None]
+    has_ground = np.isfinite(field_maps).any(axis=0)
+    return np.asarray(((field_maps - mean) / sigma)[:, has_ground])
+
+
+def controlled(outcomes: Sample, field: Matrix) -> Sample:
+    """Return values (n,) with the mean of the outcomes and less scatter, the outcomes themselves where that fails.
+
+    Parameters
+    ----------
+    outcomes : array (n,)
+    field : array (n, m)
+        Linear functions of the field with mean 0, each scaled to about the same scatter.
+    """
+    if len(outcomes) < FEWEST or np.ptp(outcomes) == 0.0:
+        return outcomes
+    adjusted = np.empty_like(outcomes)
+    fold = np.arange(len(outcomes)) % FOLDS
+    for each in range(FOLDS):
+        inside = fold == each
+        slopes = ridge(field[~inside], outcomes[~inside]).coefficients
+        adjusted[inside] = outcomes[inside] - field[inside] @ slopes
+    return adjusted if np.var(adjusted) < np.var(outcomes) else outcomes

@@ -1,0 +1,150 @@
+"""The mean run-out of a slide in the limit of small cells, from runs on some meshes and of cheaper models.
+
+With cells of size h the expected run-out is M(h). The finest mesh and the next one tell M(h) and the change
+c = M(h) - M(2 h) by the last halving. The limit of small cells is M(h) + j c: at order p of convergence
+j = 1 / (2^p - 1), 1 at first order and 1/3 at second; where smaller cells undo a part of the change, as they do on
+random fields, j is below 0. Meshes that do not converge steadily do not tell j, so the total interval joins those of
+all j from -1 to 1: first order or better, or the last change undone at most.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from campaign.accuracy.field_control import controlled
+from campaign.accuracy.nested import NestedMean, nested_mean
+from campaign.statistics.intervals import Interval, Sample
+from campaign.statistics.ridge import Matrix
+
+OUTERMOST = (-1.0, 1.0)
+"""The j between which the limit of small cells lies."""
+
+
+class Runs(NamedTuple):
+    """What realizations 0, 1, ... of a model gave.
+
+    Attributes
+    ----------
+    runout : array (n,)
+        In m: 0 without a slide, NaN without a result.
+    slid : array (n,)
+        1 of a slide, else 0.
+    field : array (n, m)
+        Linear functions of the random field with mean 0, each scaled to about the same scatter.
+    """
+
+    runout: Sample
+    slid: Sample
+    field: Matrix
+
+
+class Sampled(NamedTuple):
+    """The realizations of a model that count: those that failed in none of them.
+
+    Attributes
+    ----------
+    runout, slid : array (n,)
+        As in `Runs`.
+    even_runout, even_slid : array (n,)
+        The same means with less scatter, where the random field foretells a part of it.
+    """
+
+    runout: Sample
+    slid: Sample
+    even_runout: Sample
+    even_slid: Sample
+
+    def about(self, ratio: float, chance: float) -> tuple[Sample, Sample]:
+        """Return z = (R - r S) / P of the realizations, as they are and with less scatter."""
+        return (self.runout - ratio * self.slid) / chance, (self.even_runout - ratio * self.even_slid) / chance
+
+
+class MeshLimit(NamedTuple):
+    """The mean run-out of a slide.
+
+    Attributes
+    ----------
+    counted : Interval
+        In m on the finest mesh; sampling error alone.
+    change : Interval
+        In m by the last halving of the cell.
+    total : Interval
+        In m about `counted`, for sampling and mesh.
+    """
+
+    counted: Interval
+    change: Interval
+    total: Interval
+
+    @property
+    def error(self) -> float:
+        """The larger distance in m from the estimate to a bound of the total interval."""
+        return max(self.total.estimate - self.total.lower, self.total.upper - self.total.estimate)
+
+
+def sampled(models: Sequence[Runs]) -> list[Sampled]:
+    """Return what counts of some nested models."""
+    failed = np.zeros(max(len(runs.runout) for runs in models), dtype=np.bool_)
+    for runs in models:
+        failed[: len(runs.runout)] |= np.isnan(runs.runout)
+    return [_without(runs, failed[: len(runs.runout)]) for runs in models]
+
+
+def _without(runs: Runs, failed: NDArray[np.bool_]) -> Sampled:
+    runout, slid, field = (values[~failed] for values in runs)
+    return Sampled(runout, slid, controlled(runout, field), controlled(slid, field))
+
+
+def mesh_limit(models: Sequence[Sampled], chain: Sequence[int], confidence: float) -> MeshLimit | None:
+    """Estimate the mean with a chain of the models, the first of them at its head; None where nothing slides.
+
+    The second of the models has cells twice as large as the first, whether or not the chain holds it.
+    """
+    below, finest, above = (_at(models, chain, j) for j in (OUTERMOST[0], 0.0, OUTERMOST[1]))
+    if below is None or finest is None or above is None:
+        return None
+    by_halving = replace(
+        finest, ratio=above.ratio - finest.ratio, columns=[above.columns[0] - finest.columns[0], *finest.columns[1:]]
+    )
+    low, counted, high, change = (each.mean().interval(confidence) for each in (below, finest, above, by_halving))
+    bounds = low, counted, high
+    lower, upper = min(each.lower for each in bounds), max(each.upper for each in bounds)
+    return MeshLimit(counted, change, counted._replace(lower=max(0.0, lower), upper=upper))
+
+
+def outermost_means(models: Sequence[Sampled], chain: Sequence[int]) -> list[NestedMean]:
+    """Return the means at the two outermost limits, which tell how many realizations it takes; none without slides."""
+    limits = (_at(models, chain, j) for j in OUTERMOST)
+    return [limit.mean() for limit in limits if limit is not None]
+
+
+@dataclass(frozen=True)
+class _Limit:
+    """The mean run-out of a slide at one of the limits, as a ratio of two means.
+
+    With r the ratio of the mean run-out (zero without a slide) to the probability P of sliding, its error is that of
+    the mean of z = (R - r S) / P, which is zero (delta method).
+    """
+
+    ratio: float
+    columns: Sequence[Sample]  # z of each model of a chain
+    even: Sample  # the same of the cheapest, with less scatter
+
+    def mean(self) -> NestedMean:
+        found = nested_mean(self.columns, self.even)
+        return found._replace(estimate=self.ratio + found.estimate)
+
+
+def _at(models: Sequence[Sampled], chain: Sequence[int], j: float) -> _Limit | None:
+    first, coarser = models[0], models[1]
+    asked = Sampled(*(fine + j * (fine - coarse[: len(fine)]) for fine, coarse in zip(first, coarser, strict=True)))
+    linked = [asked, *(models[each] for each in chain[1:])]
+    chance, runout = (nested_mean([each[name] for each in linked], linked[-1][2 + name]).estimate for name in (1, 0))
+    if not chance > 0.0:
+        return None
+    ratio = runout / chance
+    z = [each.about(ratio, chance) for each in linked]
+    return _Limit(ratio, [own for own, _ in z], z[-1][1])

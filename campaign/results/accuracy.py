@@ -1,0 +1,94 @@
+"""What came of a campaign with an accuracy as its aim, as variables of the dataset and back."""
+
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from campaign.accuracy.mesh_limit import MeshLimit
+from campaign.accuracy.pursuit import Pursuit
+from campaign.accuracy.settings import Models
+from campaign.results.variables import Variables, variable
+from campaign.statistics.intervals import Interval
+
+METHOD = (
+    "sequential regression over nested realizations of all models (Anderson 1957; multilevel and multifidelity Monte "
+    "Carlo), the field's own coarse map as a control with known mean. The total interval joins those of the limits of "
+    "small cells from minus to plus the change by the last halving of the cell"
+)
+
+
+class Reached(NamedTuple):
+    """What the dataset keeps of a pursuit.
+
+    Attributes
+    ----------
+    limit : MeshLimit
+    is_reached : bool
+    cells, young_moduli : tuple of float
+        Of the models in m and Pa, from the finest mesh to the cheapest.
+    counts : tuple of int
+        Realizations that each has run.
+    seconds : tuple of float
+        Expected of a realization of each.
+    """
+
+    limit: MeshLimit
+    is_reached: bool
+    cells: tuple[float, ...]
+    young_moduli: tuple[float, ...]
+    counts: tuple[int, ...]
+    seconds: tuple[float, ...]
+
+
+def of_pursuit(found: Pursuit, models: Models) -> Variables:
+    """Return the variables; none where nothing slid."""
+    if found.limit is None:
+        return {}
+    scenes = [models.scenes[model] for model in found.models]
+    of_slides = "mean final run-out of the slides"
+    mean = variable((), found.limit.counted.estimate, "m", f"{of_slides} on the finest mesh, estimated from all models")
+    mean.attrs |= {"comment": METHOD, "is_reached": int(found.is_reached), "n": found.limit.counted.n}
+    change = found.limit.change
+    return {
+        "model": xr.Variable(
+            "model", np.array([each.name for each in found.models], dtype=object), {"long_name": "model of the scene"}
+        ),
+        "model_cell": variable("model", [each.numerics.cell for each in scenes], "m", "cell of the model"),
+        "model_young_modulus": variable(
+            "model", [each.soil.young_modulus for each in scenes], "Pa", "Young's modulus of the model"
+        ),
+        "model_realizations": variable("model", found.counts, "1", "realizations that the model has run", "i4"),
+        "model_seconds": variable(
+            "model", [each.cost for each in found.models], "s", "expected time of a realization of the model"
+        ),
+        "multilevel_runout_mean": mean,
+        "multilevel_runout_mean_ci": variable(
+            "bound", found.limit.counted[1:3], "m", "confidence interval of multilevel_runout_mean, for sampling"
+        ),
+        "multilevel_runout_mean_total_ci": variable(
+            "bound", found.limit.total[1:3], "m", "confidence interval of multilevel_runout_mean, for sampling and mesh"
+        ),
+        "multilevel_change": variable((), change.estimate, "m", f"{of_slides}, changed by the last halving"),
+        "multilevel_change_ci": variable("bound", change[1:3], "m", "confidence interval of multilevel_change"),
+    }
+
+
+def reached_of(data: xr.Dataset) -> Reached | None:
+    """Return what the dataset says of a pursuit; None where there was none."""
+    if "multilevel_runout_mean" not in data:
+        return None
+    mean, change = data["multilevel_runout_mean"], float(data["multilevel_change"])
+    n = int(mean.attrs["n"])
+
+    def interval(estimate: float, name: str) -> Interval:
+        lower, upper = data[name].values.tolist()
+        return Interval(estimate, lower, upper, n)
+
+    limit = MeshLimit(
+        interval(float(mean), "multilevel_runout_mean_ci"),
+        interval(change, "multilevel_change_ci"),
+        interval(float(mean), "multilevel_runout_mean_total_ci"),
+    )
+    names = ("model_cell", "model_young_modulus", "model_realizations", "model_seconds")
+    return Reached(limit, bool(mean.attrs["is_reached"]), *(tuple(data[name].values.tolist()) for name in names))
