@@ -51,7 +51,7 @@ def controlled(outcomes: Sample, field: Matrix) -> Sample:
     field : array (n, m)
         Linear functions of the field with mean 0, each scaled to about the same scatter.
     """
-    if len(outcomes) < FEWEST or np.ptp(outcomes) == 0.0:
+    if len(outcomes) < FEWEST or field.shape[1] == 0 or np.ptp(outcomes) == 0.0:
         return outcomes
     adjusted = np.empty_like(outcomes)
     fold = np.arange(len(outcomes)) % FOLDS

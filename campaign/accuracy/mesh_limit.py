@@ -8,7 +8,7 @@ all j from -1 to 1: first order or better, or the last change undone at most.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -106,10 +106,9 @@ def mesh_limit(models: Sequence[Sampled], chain: Sequence[int], confidence: floa
     below, finest, above = (_at(models, chain, j) for j in (OUTERMOST[0], 0.0, OUTERMOST[1]))
     if below is None or finest is None or above is None:
         return None
-    by_halving = replace(
-        finest, ratio=above.ratio - finest.ratio, columns=[above.columns[0] - finest.columns[0], *finest.columns[1:]]
+    low, counted, high, change = (
+        each.mean().interval(confidence) for each in (below, finest, above, above.minus(finest))
     )
-    low, counted, high, change = (each.mean().interval(confidence) for each in (below, finest, above, by_halving))
     bounds = low, counted, high
     lower, upper = min(each.lower for each in bounds), max(each.upper for each in bounds)
     return MeshLimit(counted, change, counted._replace(lower=max(0.0, lower), upper=upper))
@@ -133,18 +132,25 @@ class _Limit:
     columns: Sequence[Sample]  # z of each model of a chain
     even: Sample  # the same of the cheapest, with less scatter
 
+    def minus(self, other: "_Limit") -> "_Limit":
+        """Return by how much it is above another of the same chain."""
+        first, *cheaper = self.columns
+        even = self.even if cheaper else self.even - other.even
+        return _Limit(self.ratio - other.ratio, [first - other.columns[0], *cheaper], even)
+
     def mean(self) -> NestedMean:
         found = nested_mean(self.columns, self.even)
         return found._replace(estimate=self.ratio + found.estimate)
 
 
 def _at(models: Sequence[Sampled], chain: Sequence[int], j: float) -> _Limit | None:
-    first, coarser = models[0], models[1]
-    asked = Sampled(*(fine + j * (fine - coarse[: len(fine)]) for fine, coarse in zip(first, coarser, strict=True)))
-    linked = [asked, *(models[each] for each in chain[1:])]
-    chance, runout = (nested_mean([each[name] for each in linked], linked[-1][2 + name]).estimate for name in (1, 0))
+    runout, slid = (
+        fine + j * (fine - coarse[: len(fine)]) for fine, coarse in zip(models[0][:2], models[1][:2], strict=True)
+    )
+    linked = [Sampled(runout, slid, runout, slid), *(models[each] for each in chain[1:])]
+    mean = nested_mean([each.runout for each in linked], linked[-1].even_runout).estimate
+    chance = nested_mean([each.slid for each in linked], linked[-1].even_slid).estimate
     if not chance > 0.0:
         return None
-    ratio = runout / chance
-    z = [each.about(ratio, chance) for each in linked]
-    return _Limit(ratio, [own for own, _ in z], z[-1][1])
+    z = [each.about(mean / chance, chance) for each in linked]
+    return _Limit(mean / chance, [own for own, _ in z], z[-1][1])

@@ -137,8 +137,9 @@ def _as_runs(tally: Tally, directory: Path, scene: Scene) -> Runs:
 
 
 def _field_maps(directory: Path, scene: Scene, count: int) -> Matrix:
-    """Return the coarse maps of the fields, (n, property, row, column)."""
+    """Return the coarse maps of the fields, (n, property, row, column); without boxes where the records hold none."""
     maps: dict[int, Matrix] = {}
     for block in RecordStore(directory, scene.digest()).columns(count):
-        maps |= dict(zip(block.realizations.tolist(), block.values["field_map"], strict=True))
+        found = block.values.get("field_map", np.empty((len(block), 1, 0, 0)))
+        maps |= dict(zip(block.realizations.tolist(), found, strict=True))
     return np.stack([maps[k] for k in range(count)]).astype(np.float64)

@@ -52,23 +52,27 @@ def ridge(predictors: Matrix, outcome: Sample) -> Ridge:
     u, s, vt = np.linalg.svd(predictors - predictors.mean(axis=0), full_matrices=False)
     target = outcome - outcome.mean()
     penalties = PENALTIES * np.mean(s**2)
-    missed = [_missed(u, s**2 / (s**2 + penalty), target) for penalty in penalties]
+    missed = _missed(u, s[:, None] ** 2 / (s[:, None] ** 2 + penalties), target)
     best = len(missed) - 1 - int(np.argmin(missed[::-1]))  # of equal ones the largest
     operator = (vt.T * (s / (s**2 + penalties[best]))) @ u.T
-    return Ridge(operator @ target, operator, missed[best], _explained(missed[best], target))
+    return Ridge(operator @ target, operator, float(missed[best]), _explained(missed[best], target))
 
 
 def explained_by(predictors: Matrix, outcome: Sample) -> float:
     """Return the share of the variance that linear regression without a penalty foretells of values left out."""
     u = np.linalg.svd(predictors - predictors.mean(axis=0), full_matrices=False)[0]
     target = outcome - outcome.mean()
-    return _explained(_missed(u, np.ones(u.shape[1]), target), target)
+    return _explained(_missed(u, np.ones((u.shape[1], 1)), target)[0], target)
 
 
-def _missed(u: Matrix, kept: Sample, target: Sample) -> float:
-    """Return the mean square by which values left out are missed; `target` has mean zero."""
+def _missed(u: Matrix, kept: Matrix, target: Sample) -> Sample:
+    """Return the mean squares by which values left out are missed; `target` has mean zero.
+
+    Each column of `kept` holds the shares that a penalty keeps of the directions, columns of `u`.
+    """
     leverage = u**2 @ kept + 1 / len(target)
-    return float(np.mean(((target - u @ (kept * (u.T @ target))) / (1 - leverage)) ** 2))
+    residuals = target[:, None] - u @ (kept * (u.T @ target)[:, None])
+    return np.asarray(np.mean((residuals / (1 - leverage)) ** 2, axis=0))
 
 
 def _explained(missed: float, target: Sample) -> float:
