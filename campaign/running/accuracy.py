@@ -16,6 +16,7 @@ from campaign.accuracy.pursuit import Model, Pursuit, Wanted, pursue
 from campaign.accuracy.settings import HALF, OWN, Models, models_of
 from campaign.accuracy.wording import plan, setting
 from campaign.errors import RefusalError
+from campaign.fields.properties import random_properties
 from campaign.record import SLID, RealizationSummary, Status
 from campaign.running.level import Level
 from campaign.running.side_run import Means, SideRun, make
@@ -140,6 +141,6 @@ def _field_maps(directory: Path, scene: Scene, count: int) -> Matrix:
     """Return the coarse maps of the fields, (n, property, row, column); without boxes where the records hold none."""
     maps: dict[int, Matrix] = {}
     for block in RecordStore(directory, scene.digest()).columns(count):
-        found = block.values.get("field_map", np.empty((len(block), 1, 0, 0)))
+        found = block.values.get("field_map", np.empty((len(block), len(random_properties(scene)), 0, 0)))
         maps |= dict(zip(block.realizations.tolist(), found, strict=True))
     return np.stack([maps[k] for k in range(count)]).astype(np.float64)
