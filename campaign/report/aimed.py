@@ -1,0 +1,35 @@
+"""What came of an accuracy that was asked for: the mean run-out from all meshes and models together, in words."""
+
+from campaign.accuracy.wording import error_of
+from campaign.results.accuracy import Reached, reached_of
+from campaign.results.results import Results
+from campaign.scene.units import PRESSURE, shown_in_unit
+from campaign.statistics.wording import metres
+
+
+def from_all_models(results: Results) -> str:
+    """Say how far the slide runs on average and what that rests on; "" where no accuracy was asked for."""
+    reached = reached_of(results.data)
+    if reached is None:
+        return ""
+    counted, change, total = reached.limit
+    asked = results.scene.campaign.accuracy
+    met = f"{asked} were asked" if reached.is_reached else f"not the {asked} that were asked"
+    return (
+        f"The slide runs {counted.estimate:.2f} m on average, {metres(total)} with {100 * results.confidence:g} % "
+        f"confidence for sampling and mesh together: {error_of(reached.limit)}, {met}. That is the mean with cells of "
+        f"{reached.cells[0]:g} m, sampling ±{counted.half_width:.2f} m; the last halving of the cell changed it by "
+        f"{change.estimate:+.2f} ± {change.half_width:.2f} m, and the interval holds as much again in either "
+        f"direction. It rests on {models_in_words(reached)}. All that follows is counted with cells of "
+        f"{results.scene.numerics.cell:g} m alone."
+    )
+
+
+def models_in_words(reached: Reached) -> str:
+    """Say how many realizations each model has run, the finest mesh first."""
+    stiffest = max(reached.young_moduli)
+    told = [
+        f"{count} with {cell:g} m" + ("" if modulus == stiffest else f" and E = {shown_in_unit(modulus, PRESSURE)}")
+        for count, cell, modulus in zip(reached.counts, reached.cells, reached.young_moduli, strict=True)
+    ]
+    return f"{told[0].replace('with', 'runs with cells of', 1)}, {', '.join(told[1:-1])} and {told[-1]}"
