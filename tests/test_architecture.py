@@ -90,6 +90,7 @@ ROOMS = (
     "campaign.storage",
     "campaign.simulation",
     "campaign.statistics",
+    "campaign.accuracy",
     "campaign.results",
     "campaign.comparison",
     "campaign.report",

@@ -34,11 +34,14 @@ class Runs(NamedTuple):
         1 of a slide, else 0.
     field : array (n, m)
         Linear functions of the random field with mean 0, each scaled to about the same scatter.
+    cut_short : int
+        Number of slides whose run-out is a lower bound.
     """
 
     runout: Sample
     slid: Sample
     field: Matrix
+    cut_short: int = 0
 
 
 class Sampled(NamedTuple):
@@ -94,7 +97,7 @@ def sampled(models: Sequence[Runs]) -> list[Sampled]:
 
 
 def _without(runs: Runs, failed: NDArray[np.bool_]) -> Sampled:
-    runout, slid, field = (values[~failed] for values in runs)
+    runout, slid, field = (values[~failed] for values in (runs.runout, runs.slid, runs.field))
     return Sampled(runout, slid, controlled(runout, field), controlled(slid, field))
 
 

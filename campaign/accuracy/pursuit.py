@@ -63,8 +63,8 @@ class Pursuit(NamedTuple):
     ----------
     models : tuple of Model
         The last ladder.
-    counts : tuple of int
-        Realizations that each has run.
+    counts, cut_short : tuples of int
+        Realizations that each has run, and slides among them whose run-out is a lower bound.
     limit : MeshLimit or None
         The answer; None where nothing slides.
     is_reached : bool
@@ -72,6 +72,7 @@ class Pursuit(NamedTuple):
 
     models: tuple[Model, ...]
     counts: tuple[int, ...]
+    cut_short: tuple[int, ...]
     limit: MeshLimit | None
     is_reached: bool
 
@@ -94,6 +95,7 @@ def pursue(ladders: Sequence[Ladder], wanted: Wanted, compute: Compute) -> Pursu
         What, and by whom.
     """
     counts: dict[Model, int] = {}
+    runs: Mapping[Model, Runs] = {}
     for ladder, is_last in ((each, each is ladders[-1]) for each in ladders):
         pilot = (PILOT_OF_QUARTER if counts else PILOT_OF_FINEST, *(PILOT for _ in ladder[1:]))
         wished = tuple(max(counts.get(model, 0), count) for model, count in zip(ladder, pilot, strict=True))
@@ -108,7 +110,8 @@ def pursue(ladders: Sequence[Ladder], wanted: Wanted, compute: Compute) -> Pursu
         if found is None or found.is_reached or not found.is_ruled_by_mesh:
             break
     is_reached = found is not None and found.is_reached
-    return Pursuit(ladder, tuple(counts[model] for model in ladder), found and found.limit, is_reached)
+    cut_short = tuple(runs[model].cut_short for model in ladder)
+    return Pursuit(ladder, tuple(counts[model] for model in ladder), cut_short, found and found.limit, is_reached)
 
 
 class _Look(NamedTuple):

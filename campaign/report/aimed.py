@@ -5,6 +5,7 @@ from campaign.results.accuracy import Reached, reached_of
 from campaign.results.results import Results
 from campaign.scene.units import PRESSURE, shown_in_unit
 from campaign.statistics.wording import metres
+from campaign.terminal import counted
 
 
 def from_all_models(results: Results) -> str:
@@ -12,17 +13,32 @@ def from_all_models(results: Results) -> str:
     reached = reached_of(results.data)
     if reached is None:
         return ""
-    counted, change, total = reached.limit
+    mean, change, total = reached.limit
     asked = results.scene.campaign.accuracy
     met = f"{asked} were asked" if reached.is_reached else f"not the {asked} that were asked"
-    return (
-        f"The slide runs {counted.estimate:.2f} m on average, {metres(total)} with {100 * results.confidence:g} % "
-        f"confidence for sampling and mesh together: {error_of(reached.limit)}, {met}. That is the mean with cells of "
-        f"{reached.cells[0]:g} m, sampling ±{counted.half_width:.2f} m; the last halving of the cell changed it by "
-        f"{change.estimate:+.2f} ± {change.half_width:.2f} m, and the interval holds as much again in either "
-        f"direction. It rests on {models_in_words(reached)}. All that follows is counted with cells of "
-        f"{results.scene.numerics.cell:g} m alone."
+    return " ".join(
+        filter(
+            None,
+            [
+                f"The slide runs {mean.estimate:.2f} m on average, {metres(total)} with {100 * results.confidence:g} % "
+                f"confidence for sampling and mesh together: {error_of(reached.limit)}, {met}.",
+                f"That is the mean with cells of {reached.cells[0]:g} m, sampling ±{mean.half_width:.2f} m; the last "
+                f"halving of the cell changed it by {change.estimate:+.2f} ± {change.half_width:.2f} m, and the "
+                "interval holds as much again in either direction.",
+                _cut_short(reached),
+                f"It rests on {models_in_words(reached)}.",
+                f"All that follows is counted with cells of {results.scene.numerics.cell:g} m alone.",
+            ],
+        )
     )
+
+
+def _cut_short(reached: Reached) -> str:
+    """Say what makes the mean a lower bound."""
+    count, of = reached.cut_short[0], reached.counts[0]
+    if not count:
+        return ""
+    return f"It is a lower bound: {count} of {counted(of, 'run')} on that mesh met a wall or still moved at the end."
 
 
 def models_in_words(reached: Reached) -> str:

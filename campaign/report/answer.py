@@ -8,6 +8,7 @@ import numpy as np
 
 from campaign.record import Status
 from campaign.report import estimates
+from campaign.report.aimed import from_all_models
 from campaign.report.cut_short import Cause, at_least, causes, in_one_clause
 from campaign.results.results import Results
 from campaign.statistics.intervals import Interval
@@ -52,7 +53,8 @@ def answer(results: Results) -> str:
         none = f"No answer: {counted(results.realizations, 'realization')}, and none with a result."
         return " ".join(filter(None, [none, why_failed(results)]))
     of_slides = _slides(results) if outcomes.slides else []
-    return " ".join(filter(None, [_chance(results), *of_slides, _comparison(results), _beyond(results)]))
+    parts = [_chance(results), from_all_models(results), *of_slides, _comparison(results), _beyond(results)]
+    return " ".join(filter(None, parts))
 
 
 def outcomes(results: Results) -> list[Outcome]:

@@ -7,6 +7,7 @@ import numpy as np
 from campaign.record import FAILED, UNHINDERED, Status
 from campaign.report import estimates
 from campaign.report.cut_short import at_least, causes
+from campaign.results.accuracy import reached_of
 from campaign.results.results import Results
 from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.intervals import Interval
@@ -37,6 +38,7 @@ def error_budget(results: Results) -> list[Row]:
     """Return what the answer's uncertainty consists of."""
     return [
         *_chance(results),
+        *_aimed(results),
         *_runout(results),
         *_exceedance(results),
         *_cut_short(results),
@@ -53,6 +55,21 @@ def _chance(results: Results) -> list[Row]:
     value = chance(probability.estimate) if probability.n else NO_RESULT
     bounds = chances(probability) if probability.n else ""
     return [Row("Sampling", "probability of a slide", value, bounds, str(probability.n))]
+
+
+def _aimed(results: Results) -> list[Row]:
+    """Return the mean from all meshes and models, where an accuracy was asked for."""
+    reached = reached_of(results.data)
+    if reached is None:
+        return []
+    counted, change, total = reached.limit
+    cell, n = reached.cells[0], str(counted.n)
+    name = "mean run-out of a slide, from all meshes and models"
+    return [
+        Row("Total", f"{name}, sampling and mesh", f"{total.estimate:.2f} m", metres(total), n),
+        Row("Sampling", f"{name}, with cells of {cell:g} m", f"{counted.estimate:.2f} m", metres(counted), n),
+        Row("Discretisation", f"{name}, changed by cells of {cell:g} m", *_signed(change), n),
+    ]
 
 
 def _runout(results: Results) -> list[Row]:
@@ -129,8 +146,13 @@ def _discretisation(results: Results) -> list[Row]:
     change, name = found.interval, f"mean run-out of a slide, changed by cells of {found.cell / 2:g} m"
     if change.n == 0:
         return [Row("Discretisation", name, NOT_ESTIMATED, _why_no_pair(results, found), "0")]
+    return [Row("Discretisation", name, *_signed(change), str(change.n))]
+
+
+def _signed(change: Interval) -> tuple[str, str]:
+    """Write a change and its bounds, "+0.21 m" and "+0.10 to +0.32 m"."""
     bounds = f"{change.lower:+.2f} to {change.upper:+.2f} m" if change.is_known else "not enough pairs"
-    return [Row("Discretisation", name, f"{change.estimate:+.2f} m", bounds, str(change.n))]
+    return f"{change.estimate:+.2f} m", bounds
 
 
 def _why_no_pair(results: Results, found: Discretisation) -> str:

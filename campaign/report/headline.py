@@ -10,6 +10,7 @@ from campaign.report.cut_short import causes, in_one_clause
 from campaign.report.places import Reach, reach_estimates
 from campaign.report.raised import goes_ahead
 from campaign.report.wording import bounds
+from campaign.results.accuracy import reached_of
 from campaign.results.results import Results
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import results_to_bound
@@ -31,7 +32,19 @@ def tiles(results: Results) -> list[Tile]:
     """Return the numbers of the first screen, the probability of a slide first."""
     if not results.outcomes.usable:
         return []
-    return [_slide(results), *_runouts(results)]
+    return [_slide(results), *_aimed(results), *_runouts(results)]
+
+
+def _aimed(results: Results) -> list[Tile]:
+    """Return the mean from all meshes and models, where an accuracy was asked for."""
+    reached = reached_of(results.data)
+    if reached is None:
+        return []
+    mean = reached.limit.total
+    remark = f"cells down to {reached.cells[0]:g} m; all else was counted with {results.scene.numerics.cell:g} m alone"
+    return [
+        Tile("The front of a slide stops on average at", f"{mean.estimate:.2f} m", bounds(mean, "m", ".2f"), remark)
+    ]
 
 
 def reaches(results: Results) -> list[Tile]:

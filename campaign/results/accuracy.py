@@ -27,8 +27,8 @@ class Reached(NamedTuple):
     is_reached : bool
     cells, young_moduli : tuple of float
         Of the models in m and Pa, from the finest mesh to the cheapest.
-    counts : tuple of int
-        Realizations that each has run.
+    counts, cut_short : tuples of int
+        Realizations that each has run, and slides among them whose run-out is a lower bound.
     seconds : tuple of float
         Expected of a realization of each.
     """
@@ -38,6 +38,7 @@ class Reached(NamedTuple):
     cells: tuple[float, ...]
     young_moduli: tuple[float, ...]
     counts: tuple[int, ...]
+    cut_short: tuple[int, ...]
     seconds: tuple[float, ...]
 
 
@@ -59,6 +60,9 @@ def of_pursuit(found: Pursuit, models: Models) -> Variables:
             "model", [each.soil.young_modulus for each in scenes], "Pa", "Young's modulus of the model"
         ),
         "model_realizations": variable("model", found.counts, "1", "realizations that the model has run", "i4"),
+        "model_cut_short": variable(
+            "model", found.cut_short, "1", "slides among them whose run-out is a lower bound", "i4"
+        ),
         "model_seconds": variable(
             "model", [each.cost for each in found.models], "s", "expected time of a realization of the model"
         ),
@@ -90,5 +94,5 @@ def reached_of(data: xr.Dataset) -> Reached | None:
         interval(change, "multilevel_change_ci"),
         interval(float(mean), "multilevel_runout_mean_total_ci"),
     )
-    names = ("model_cell", "model_young_modulus", "model_realizations", "model_seconds")
+    names = ("model_cell", "model_young_modulus", "model_realizations", "model_cut_short", "model_seconds")
     return Reached(limit, bool(mean.attrs["is_reached"]), *(tuple(data[name].values.tolist()) for name in names))

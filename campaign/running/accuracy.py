@@ -17,7 +17,7 @@ from campaign.accuracy.settings import HALF, OWN, Models, models_of
 from campaign.accuracy.wording import plan, setting
 from campaign.errors import RefusalError
 from campaign.fields.properties import random_properties
-from campaign.record import SLID, RealizationSummary, Status
+from campaign.record import LOWER_BOUND, SLID, RealizationSummary, Status
 from campaign.running.level import Level
 from campaign.running.side_run import Means, SideRun, make
 from campaign.scene import Scene
@@ -134,7 +134,8 @@ def _as_runs(tally: Tally, directory: Path, scene: Scene) -> Runs:
     summaries = [tally.summaries[k] for k in range(tally.maximum)]
     runout = np.array([each.runout(tally.front) for each in summaries])
     slid = np.array([float(each.status in SLID) for each in summaries])
-    return Runs(runout, slid, deviations(_field_maps(directory, scene, tally.maximum), scene))
+    cut_short = sum(each.status in LOWER_BOUND for each in summaries)
+    return Runs(runout, slid, deviations(_field_maps(directory, scene, tally.maximum), scene), cut_short)
 
 
 def _field_maps(directory: Path, scene: Scene, count: int) -> Matrix:

@@ -50,10 +50,10 @@ def test_the_time_left_is_that_of_all_runs(monkeypatch):
 
 @pytest.mark.parametrize(
     ("ranks", "seconds"),
-    [(1, 8 * 5 + 1 + 8 * 4), (2, 8 * 3 + 1 + 8 * 2), (16, 8 + 1 + 8)],
+    [(1, 8 * 9 + 1 + 8 * 4), (2, 8 * 5 + 1 + 8 * 2), (16, 8 + 1 + 8)],
 )
 def test_what_follows_is_counted_in_rounds_of_all_ranks(ranks, seconds):
-    """A realization takes 1 s. Half the cell: 4 realizations and the deterministic one, 8 s each. 8 inputs, 4 each."""
+    """A realization takes 1 s. Half the cell: 8 realizations and the deterministic one, 8 s each. 8 inputs, 4 each."""
     tally = filled([BASELINE, *range(30)])
     assert seconds_beyond_sampling(load_scene("ma2023"), ranks, tally, float(ranks)) == seconds
 
