@@ -1,11 +1,13 @@
-"""Where compiled kernels are kept: a private directory of this user, on this node, for exactly this source of `solver`.
+"""Where compiled kernels are kept: a private directory of this user, for exactly this source of `solver`.
 
 Numba unpickles what it finds in its cache, so a directory that somebody else owns, or may write to, is never used. It
 does not notice an edit in a callee of another file, so the directory is named after all sources.
 """
 
+import atexit
 import hashlib
 import os
+import shutil
 import stat
 import tempfile
 from collections.abc import Callable, Iterator
@@ -17,6 +19,11 @@ import numba
 from numba.core import event
 
 HOME = Path(__file__).parent
+
+NAME = "runout-solver"
+
+JOBS = ("SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID")
+"""What batch systems set in their jobs."""
 
 
 @contextmanager
@@ -55,9 +62,29 @@ class _First(event.Listener):
 
 @cache
 def directory() -> Path:
-    """Return the directory: below `NUMBA_CACHE_DIR` if that is set, else below the node's temporary one."""
-    given = os.environ.get("NUMBA_CACHE_DIR")
-    return private_directory(Path(given or tempfile.gettempdir()) / f"runout-solver-{os.getuid()}") / source_digest()
+    """Return the directory, below the first of `places` that is ours alone."""
+    return next(place for place in places() if is_ours_alone(place)) / source_digest()
+
+
+def places() -> Iterator[Path]:
+    """Yield where code may be kept, the best place first and at last a new one, which goes with this process.
+
+    The user's own cache directory lasts longest. A batch job keeps its code on the node: on a cluster that directory
+    is on a network file system, where a node sees late what another one writes.
+    """
+    ours = f"{NAME}-{os.getuid()}"
+    if given := os.environ.get("NUMBA_CACHE_DIR"):
+        yield Path(given) / ours
+    lasting = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")) / NAME
+    is_job = any(name in os.environ for name in JOBS)
+    if not is_job:
+        yield lasting
+    yield Path(tempfile.gettempdir()) / ours
+    if is_job:
+        yield lasting
+    new = tempfile.mkdtemp(prefix=f"{NAME}-")
+    atexit.register(shutil.rmtree, new, ignore_errors=True)
+    yield Path(new)
 
 
 def source_digest() -> str:
@@ -68,12 +95,14 @@ def source_digest() -> str:
     return digest.hexdigest()[:16]
 
 
-def private_directory(path: Path) -> Path:
-    """Return `path` if it is, or can be made, a directory that is ours alone; a fresh private one otherwise."""
+def is_ours_alone(path: Path) -> bool:
+    """Whether `path` is, or can be made, a directory of this user in which nobody else can write."""
+    if not path.is_absolute():
+        return False
     try:
         path.mkdir(mode=0o700, parents=True, exist_ok=True)
         found = path.lstat()  # of the path itself: a link may lead to anywhere
     except OSError:
-        return Path(tempfile.mkdtemp(prefix="runout-solver-"))
-    is_ours = stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o022
-    return path if is_ours else Path(tempfile.mkdtemp(prefix="runout-solver-"))
+        return False
+    is_private = stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o022
+    return is_private and os.access(path, os.W_OK)

@@ -1,6 +1,8 @@
 """Compiled code is read from a directory that nobody else can write to."""
 
 import os
+import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -8,45 +10,77 @@ import numba
 import pytest
 
 import solver.step  # noqa: F401  -- whatever it sets must not stay
-from solver.compile_cache import compile_cache, private_directory, telling_of_compilation
+from solver.compile_cache import JOBS, compile_cache, directory, is_ours_alone, telling_of_compilation
 
 
-@pytest.fixture(autouse=True)
-def elsewhere(tmp_path, monkeypatch):
-    """Fresh directories are made where the test leaves nothing behind."""
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+@pytest.fixture
+def home(tmp_path, monkeypatch):
+    """A user's cache directory and a node's temporary one, outside of jobs."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "home"))
+    (tmp_path / "node").mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "node"))
+    for name in ("NUMBA_CACHE_DIR", *JOBS):
+        monkeypatch.delenv(name, raising=False)
+    return tmp_path
 
 
-def test_a_new_directory_is_private(tmp_path):
-    made = private_directory(tmp_path / "cache")
-    assert made == tmp_path / "cache"
-    assert made.stat().st_mode & 0o777 == 0o700
+def chosen():
+    return directory.__wrapped__().parent
+
+
+def test_code_is_kept_where_the_user_keeps_such_and_nobody_else_looks(home):
+    assert chosen() == home / "home" / "runout-solver"
+    assert chosen().stat().st_mode & 0o777 == 0o700
+
+
+@pytest.mark.parametrize("job", JOBS)
+def test_a_job_keeps_code_on_its_node(home, monkeypatch, job):
+    monkeypatch.setenv(job, "7")
+    assert chosen() == home / "node" / f"runout-solver-{os.getuid()}"
+
+
+def test_numbas_own_directory_goes_first(home, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(home / "given"))
+    assert chosen() == home / "given" / f"runout-solver-{os.getuid()}"
 
 
 @pytest.mark.parametrize("mode", [0o770, 0o707, 0o777])
-def test_a_directory_that_others_may_write_to_is_not_used(tmp_path, mode):
-    open_to_others = tmp_path / "cache"
-    open_to_others.mkdir()
-    open_to_others.chmod(mode)
-    assert private_directory(open_to_others) != open_to_others
+def test_a_directory_that_others_may_write_to_is_not_used(home, mode):
+    theirs = chosen()
+    theirs.chmod(mode)
+    assert chosen() == home / "node" / f"runout-solver-{os.getuid()}"
 
 
-def test_a_link_is_not_followed(tmp_path):
-    (tmp_path / "elsewhere").mkdir(mode=0o700)
-    (tmp_path / "cache").symlink_to(tmp_path / "elsewhere")
-    assert private_directory(tmp_path / "cache") != tmp_path / "cache"
+def test_a_link_is_not_followed(home):
+    (home / "elsewhere").mkdir(mode=0o700)
+    (home / "home").mkdir()
+    (home / "home" / "runout-solver").symlink_to(home / "elsewhere")
+    assert chosen() == home / "node" / f"runout-solver-{os.getuid()}"
 
 
-def test_a_directory_of_somebody_else_is_not_used(tmp_path, monkeypatch):
-    theirs = tmp_path / "cache"
-    theirs.mkdir(mode=0o700)
+def test_a_directory_of_somebody_else_is_not_used(home, monkeypatch):
+    theirs = chosen()
+    assert is_ours_alone(theirs)
     monkeypatch.setattr(os, "getuid", lambda: theirs.stat().st_uid + 1)
-    assert private_directory(theirs) != theirs
+    assert not is_ours_alone(theirs)
 
 
-def test_a_place_that_cannot_be_written_gives_a_fresh_directory(tmp_path):
-    (tmp_path / "file").write_text("")
-    assert private_directory(tmp_path / "file" / "cache").is_dir()
+def test_what_is_made_for_want_of_a_better_place_goes_with_its_process(home):
+    for name in (home / "home", home / "node" / f"runout-solver-{os.getuid()}"):
+        name.write_text("in the way")
+    program = "from solver.compile_cache import directory; print(directory().parent)"
+    environment = os.environ | {"TMPDIR": str(home / "node")}
+    made = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True)
+    assert Path(made.stdout.strip()).parent == home / "node"
+    assert not Path(made.stdout.strip()).exists()
+
+
+def test_a_cache_directory_that_is_none_is_not_made_where_we_happen_to_be(home, monkeypatch):
+    """A container may have no home directory for "~" to be."""
+    monkeypatch.setenv("XDG_CACHE_HOME", "~/.cache")
+    monkeypatch.chdir(home)
+    assert chosen() == home / "node" / f"runout-solver-{os.getuid()}"
+    assert not (home / "~").exists()
 
 
 def test_numbas_own_setting_stays():
