@@ -18,7 +18,7 @@ SIZE = 512
 _HDF5 = b"\x89HDF"
 """How a file of format 0 begins."""
 
-_LINE = re.compile(rb"runout-campaign format (\d+), read by (\S+) and newer, sha256 ([0-9a-f]{64})\n")
+_LINE = re.compile(rb"runout-campaign format (\d+), read by ([!-~]+) and newer, sha256 ([0-9a-f]{64})\n")
 
 
 class Seal(NamedTuple):

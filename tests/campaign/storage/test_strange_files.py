@@ -149,6 +149,12 @@ def test_mutated_bytes_are_damage_or_change_nothing():
     assert found["refused"] < 10
 
 
+def test_a_first_line_that_is_no_text_is_damage():
+    content = record_format.to_bytes(make_record(0)).replace(b"read by 0", b"read by \x92")
+    with pytest.raises(DamagedRecordError, match="does not begin as it was written"):
+        record_format.from_bytes(content, "a file")
+
+
 def test_mutated_packs_give_whole_records_or_none(tmp_path, monkeypatch):
     """Without a process for each: what it does is done here. A byte that no record rests on may be any."""
     monkeypatch.setattr(Packs, "SIZE", 4)
