@@ -29,6 +29,8 @@ class Status(IntEnum):
     crashed = 6
     reached_wall = 7
 
+    __hash__ = int.__hash__  # that of an enumeration runs in Python, several times for each realization of an account
+
 
 FAILED = frozenset({Status.timeout, Status.diverged, Status.left_domain, Status.crashed})
 """Without a result: counted, reported, and never part of a statistic."""

@@ -1,5 +1,6 @@
 """What became of the first realizations: the numbers from which every estimate is made."""
 
+import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -93,7 +94,7 @@ class Account:
         self._realizations += 1
         self.failed += summary.status in FAILED
         runout = summary.runout(self.front)
-        if not np.isfinite(runout):
+        if not math.isfinite(runout):
             return
         self._usable += 1
         if summary.status in SLID:

@@ -159,6 +159,11 @@ def is_regular(count: int, rule: StoppingRule) -> bool:
     return count >= rule.minimum and (count - rule.minimum) % rule.block == 0
 
 
+def may_look(count: int, rule: StoppingRule) -> bool:
+    """Whether this number of realizations is one that the rule looks at, whatever became of them."""
+    return is_regular(count, rule) or count % rule.block == 0
+
+
 def is_converged(looks: list[Checkpoint], rule: StoppingRule) -> bool:
     """Whether the latest looks satisfy the rule."""
     latest = looks[-LOOKS_IN_A_ROW:]

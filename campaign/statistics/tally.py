@@ -13,7 +13,7 @@ from campaign.scene.sections import Campaign
 from campaign.seeds import BASELINE
 from campaign.statistics.convergence import ConvergenceHistory, history_of, is_look
 from campaign.statistics.outcomes import Account
-from campaign.statistics.stopping import Checkpoint, StoppingRule, is_converged
+from campaign.statistics.stopping import Checkpoint, StoppingRule, is_converged, may_look
 
 
 class Fault(NamedTuple):
@@ -95,7 +95,10 @@ class Tally:
             self.size = 0
 
     def _judge(self) -> None:
-        at_end, latest = self.prefix == self.maximum, self.latest()
+        at_end = self.prefix == self.maximum
+        if not (at_end or may_look(self.prefix, self.rule)):
+            return
+        latest = self.latest()
         if is_look(latest, self.rule):
             self._looks.append(latest)
         elif not at_end:

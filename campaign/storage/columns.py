@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -53,11 +54,13 @@ class Columns:
         """Return all rows as records."""
         return [self.record(row) for row in range(len(self))]
 
+    @cached_property
     def summaries(self) -> list[RealizationSummary]:
         """Return the part of each row that decisions rest on."""
         absent = np.full(len(self), np.nan)
         numbers = [self.values.get(name, absent).tolist() for name in SUMMARIZED]
-        statuses = map(Status, self.statuses.tolist())
+        codes = self.statuses.tolist()
+        statuses = map({code: Status(code) for code in set(codes)}.__getitem__, codes)
         return [*map(RealizationSummary, self.realizations.tolist(), statuses, *numbers)]
 
 

@@ -6,7 +6,7 @@ told from the others.
 
 import hashlib
 import io
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,7 @@ from campaign.errors import DamagedRecordError
 from campaign.record import SUMMARIZED, Record, Status, plain
 from campaign.storage import format_0
 from campaign.storage.columns import Columns, columns_of
-from campaign.storage.record_format import read_units, write_values
+from campaign.storage.record_format import numbers_in, read_units, write_values
 from campaign.storage.seal import SIZE, check_bytes, seal_of, sealed
 
 VALUES = "values"
@@ -53,15 +53,15 @@ def read(path: Path) -> Columns:
     RefusalError
         When only a newer version of the program can read it.
     """
-    return _read(path, None)
+    return _read(path, _columns)
 
 
 def read_summarized(path: Path) -> Columns:
-    """Read and verify a pack of which only what decisions rest on is taken, a few columns; raises like `read`."""
-    return _read(path, SUMMARIZED)
+    """Read and verify a pack of which only the numbers are taken that decisions rest on; raises like `read`."""
+    return _read(path, _summarized)
 
 
-def _read(path: Path, names: Collection[str] | None) -> Columns:
+def _read(path: Path, take: Callable[[h5py.File], Columns]) -> Columns:
     content, place = _content(path), f"The pack {path}"
     seal = seal_of(content, place)
     if seal is not None:
@@ -70,7 +70,7 @@ def _read(path: Path, names: Collection[str] | None) -> Columns:
         with h5py.File(io.BytesIO(content), "r") as file:
             if seal is None:
                 return columns_of([format_0.read_group(file[name], place) for name in file])
-            return _columns(file, list(file[VALUES]) if names is None else names)
+            return take(file)
     except READ_ERRORS as error:
         raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
 
@@ -99,10 +99,16 @@ def _content(path: Path) -> bytes:
         raise DamagedRecordError(f"The pack {path} cannot be opened ({error}).") from error
 
 
-def _columns(file: h5py.File, names: Collection[str]) -> Columns:
-    values = {name: file[VALUES][name][()] for name in names}
-    reasons, units = file["reason"].asstr()[()], read_units(file[VALUES], names)
+def _columns(file: h5py.File) -> Columns:
+    values = {name: column[()] for name, column in file[VALUES].items()}
+    reasons, units = file["reason"].asstr()[()], read_units(file[VALUES], values)
     return Columns(file["realization"][()], file["status"][()], reasons, values, units, _scene(file))
+
+
+def _summarized(file: h5py.File) -> Columns:
+    values = {name: numbers_in(file, f"{VALUES}/{name}") for name in SUMMARIZED}
+    realizations, statuses = numbers_in(file, "realization"), numbers_in(file, "status")
+    return Columns(realizations, statuses, np.full(len(realizations), "", object), values, {}, _scene(file))
 
 
 def _row(file: h5py.File, row: int) -> Record:

@@ -103,14 +103,14 @@ class Packs:
         return [], ""
 
     def _keep(self, number: int, columns: Columns) -> None:
-        self._summaries[number] = columns.summaries()
+        self._summaries[number] = columns.summaries
         self._shapes[number] = {name: shape_of(column[0]) for name, column in columns.values.items() if len(column)}
 
     def _own(self, number: int, columns: Columns) -> Columns:
         """Return a pack if it can be this campaign's; raises DamagedRecordError if not."""
         place = f"The pack {self.path(number)}"
         check_owner(columns.scene, self._scene, place)
-        check_sound(columns.summaries(), place)
+        check_sound(columns.summaries, place)
         if (columns.realizations // self.SIZE != number).any():
             raise DamagedRecordError(f"{place} holds other realizations than its name says.")
         return columns

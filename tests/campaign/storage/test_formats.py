@@ -206,5 +206,5 @@ def test_rows_of_columns_are_the_records():
     columns = columns_of(records)
     for record, row in zip(records, columns.records(), strict=True):
         assert_same(record, row)
-    assert [each.final_runout for each in columns.summaries()] == [r.values["final_runout"] for r in records]
+    assert [each.final_runout for each in columns.summaries] == [r.values["final_runout"] for r in records]
     assert columns.values.keys() == QUANTITIES.keys()
