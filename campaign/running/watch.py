@@ -1,13 +1,42 @@
-"""A realization that never comes back is noticed: its time limit is kept by its own time loop, which may hang."""
+"""A realization that never comes back is noticed: its time limit is kept by its own time loop, which may hang.
 
+Rank 0 watches, and says who hangs. Each rank has a timer besides, which needs no Python to end its process: rank 0 may
+hang itself and keep its own threads from running, or a rank may hang before its first realization.
+"""
+
+import faulthandler
 import time
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from typing import TextIO
 
 from campaign.exit_codes import ExitCode
 
 GRACE = 300.0
 """Seconds beyond its time limit that a realization is given to notice it, and to write its record."""
+
+
+def patience(timeout: float) -> float:
+    """Return how long a realization may take to come back [s] when its time limit is `timeout` [s]."""
+    return 1.1 * timeout + GRACE
+
+
+@contextmanager
+def timer(timeout: float, trace: TextIO | int) -> Iterator[None]:
+    """End this process when it does not leave the context and rank 0 has not seen to that; `trace` tells where it was.
+
+    Parameters
+    ----------
+    timeout
+        Of a realization [s].
+    trace
+        A file of the system, or its number.
+    """
+    faulthandler.dump_traceback_later(2 * patience(timeout), exit=True, file=trace)
+    try:
+        yield
+    finally:
+        faulthandler.cancel_dump_traceback_later()
 
 
 class HungError(BaseException):
@@ -35,7 +64,7 @@ class Watch:
     def __init__(
         self, timeout: float, hold_against: Callable[[int, str], None], clock: Callable[[], float] = time.monotonic
     ) -> None:
-        self._patience = 1.1 * timeout + GRACE
+        self._patience = patience(timeout)
         self._hold_against = hold_against
         self._clock = clock
         self._begun: dict[int, tuple[int, float]] = {}

@@ -6,6 +6,7 @@ from campaign.record import Record, Status, summarize
 from campaign.running.interrupt import Interrupt
 from campaign.running.machine_fault import MachineFaultError, machine_faults, reason_of
 from campaign.running.stop_request import BrokenOff
+from campaign.running.watch import timer
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import Interrupted, PreparedGround, without_result
 from campaign.statistics.tally import Fault, RankReport
@@ -14,6 +15,9 @@ from campaign.storage.provenance import machine
 from campaign.storage.record_store import RecordStore
 from campaign.storage.soundness import is_sound
 from campaign.terminal import say
+
+STDERR = 2
+"""The number of a process's stream of errors, whatever Python or a notebook makes of it."""
 
 PATIENCE = 2
 """Faults of the machine in a row after which a rank takes no more work."""
@@ -36,7 +40,7 @@ class Worker:
         self.interrupt.restart()
         asked = iter([False])
         try:
-            with self.interrupt.stop.breaking_off(), machine_faults():
+            with self.interrupt.stop.breaking_off(), machine_faults(), timer(self.interrupt.timeout, STDERR):
                 self.ground.simulate(BASELINE, lambda: self.interrupt() or next(asked, True))
         except MachineFaultError as fault:
             self._unfit, self._faults = f"it fails before its first realization: {fault}", PATIENCE
@@ -49,7 +53,7 @@ class Worker:
             return self._fault(realization, self._unfit)
         self.interrupt.restart()
         try:
-            with self.attempts.of(self.rank, realization):
+            with self.attempts.of(self.rank, realization) as trace, timer(self.interrupt.timeout, trace):
                 record = self._simulate(realization)
             if record is None:
                 return RankReport(None, self.interrupt.abandons)

@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TextIO
 
 from campaign.files import file_names, write_atomically
 from campaign.storage.layout import ATTEMPTS, CRASHES, attempt_file, is_attempt
@@ -31,14 +32,14 @@ class Attempts:
         self.directory.mkdir(parents=True, exist_ok=True)
 
     @contextmanager
-    def of(self, rank: int, realization: int) -> Iterator[None]:
-        """Leave a trace should the process die in the context."""
+    def of(self, rank: int, realization: int) -> Iterator[TextIO]:
+        """Leave a trace should the process die in the context, which is given the file where it goes."""
         with (self.directory / attempt_file(rank)).open("w") as file:
             file.write(f"{realization}\n")
             file.flush()
             faulthandler.enable(file)
             try:
-                yield
+                yield file
             finally:
                 faulthandler.disable()
                 file.truncate(0)

@@ -3,6 +3,7 @@
 Run under mpirun as a campaign: `python stand_in.py DIR REALIZATIONS`, with STAND_IN_* variables for faults.
 """
 
+import ctypes
 import errno
 import os
 import resource
@@ -78,6 +79,8 @@ def misbehave(realization: int) -> None:
         os._exit(0)
     if str(realization) == os.environ.get("STAND_IN_HANG"):
         time.sleep(1000)
+    if str(realization) == os.environ.get("STAND_IN_HANG_ALONE"):
+        ctypes.PyDLL(None).sleep(1000)  # no other thread of Python runs meanwhile
     if str(realization) == os.environ.get("STAND_IN_RAISE"):
         raise ZeroDivisionError("a particle has no mass")
     if str(realization) == os.environ.get("STAND_IN_CRASH"):

@@ -12,7 +12,17 @@ import time
 
 import numpy as np
 import pytest
-from stand_in_campaign import MPIRUN, assert_same, campaign, dataset, dataset_of, start, wait_for, wait_for_records
+from stand_in_campaign import (
+    MPIRUN,
+    assert_same,
+    campaign,
+    dataset,
+    dataset_of,
+    lets_ranks_end,
+    start,
+    wait_for,
+    wait_for_records,
+)
 
 from campaign.exit_codes import ExitCode
 from campaign.running.standing import conclusion, status
@@ -89,6 +99,27 @@ def test_a_realization_that_hangs_is_ended_and_skipped_after_the_second_time(tmp
     assert "no answer within 5 s" in str(dataset(directory).reason[3].values)
 
 
+def test_a_realization_that_hangs_and_stops_all_threads_of_its_rank_is_ended_too(tmp_path):
+    """Rank 0 cannot watch itself then."""
+    directory, short = tmp_path / "out", ["campaign.realization_timeout=0.5 s"]
+    for _ in range(2):
+        code, output = campaign(directory, 12, 1, short, hang_alone=3, grace=3)
+        assert code not in (0, 3), output
+        assert conclusion(directory) is ExitCode.RESUMABLE
+    code, output = campaign(directory, 12, 1, short, hang_alone=3, grace=3)
+    assert code == 0, output
+    assert "Realization 3 is recorded as crashed: it took the process down 2 times: Timeout" in output
+
+
+def test_a_rank_that_hangs_before_its_first_realization_is_ended(alone, tmp_path):
+    """That is tried out with the baseline."""
+    short = ["campaign.realization_timeout=0.5 s"]
+    code, output = campaign(tmp_path / "out", overrides=short, hang_alone=-1, grace=3)
+    assert code not in (0, 3), output
+    assert re.search(r"Timeout.*in misbehave", output, re.DOTALL), output
+    assert_same(dataset_of(tmp_path / "out", overrides=["campaign.realization_timeout=1 h"]), alone)
+
+
 @pytest.mark.parametrize("number", [signal.SIGUSR1, signal.SIGTERM])
 def test_a_signal_ends_the_preparation_at_once(tmp_path, number):
     directory = tmp_path / "out"
@@ -97,10 +128,11 @@ def test_a_signal_ends_the_preparation_at_once(tmp_path, number):
     begin = time.monotonic()
     os.kill(process.pid, number)
     output, _ = process.communicate(timeout=40)
-    assert process.returncode == 75, output
     assert time.monotonic() - begin < 20
-    assert "before its first realization" in output
-    assert "stopped early (asked to stop)" in status(directory)
+    if lets_ranks_end(number):
+        assert process.returncode == 75, output
+        assert "before its first realization" in output
+        assert "stopped early (asked to stop)" in status(directory)
     assert conclusion(directory) is ExitCode.RESUMABLE
 
 
