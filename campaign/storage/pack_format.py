@@ -100,8 +100,9 @@ def _content(path: Path) -> bytes:
 
 
 def _columns(file: h5py.File) -> Columns:
-    values = {name: column[()] for name, column in file[VALUES].items()}
-    reasons, units = file["reason"].asstr()[()], read_units(file[VALUES], values)
+    datasets = dict(file[VALUES].items())
+    values = {name: column[()] for name, column in datasets.items()}
+    reasons, units = file["reason"].asstr()[()], read_units(datasets)
     return Columns(file["realization"][()], file["status"][()], reasons, values, units, _scene(file))
 
 
@@ -115,7 +116,7 @@ def _row(file: h5py.File, row: int) -> Record:
     """Read one row and verify it by its own checksum."""
     values = {name: plain(column[row]) for name, column in file[VALUES].items()}
     status = Status(int(file["status"][row]))
-    units = read_units(file[VALUES], values)
+    units = read_units(file[VALUES])
     record = Record(int(file["realization"][row]), status, file["reason"].asstr()[row], values, units, _scene(file))
     if file["checksum"][row].decode() != _checksum(record):
         raise DamagedRecordError(f"Row {row} does not match its checksum.")

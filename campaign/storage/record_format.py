@@ -1,7 +1,7 @@
 """A record as bytes: an HDF5 file with a dataset for each quantity, behind a seal."""
 
 import io
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
 import h5py
@@ -75,8 +75,9 @@ def _read(content: bytes, place: str, take: Callable[[h5py.File], _Held]) -> Rec
 
 
 def _values(file: h5py.File) -> _Held:
-    values: dict[str, Value] = {name: plain(dataset[()]) for name, dataset in file.items()}
-    return values, read_units(file, values)
+    datasets = dict(file.items())
+    values: dict[str, Value] = {name: plain(dataset[()]) for name, dataset in datasets.items()}
+    return values, read_units(datasets)
 
 
 def _summarized(file: h5py.File) -> _Held:
@@ -98,7 +99,7 @@ def write_values(group: h5py.Group, name: str, values: Any, units: Mapping[str, 
         group[name].attrs["units"] = units[name]
 
 
-def read_units(group: h5py.Group, names: Collection[str]) -> dict[str, str]:
+def read_units(datasets: Mapping[str, h5py.Dataset]) -> dict[str, str]:
     """Return the units of the quantities that have one."""
-    units = {name: group[name].attrs.get("units") for name in names}
+    units = {name: dataset.attrs.get("units") for name, dataset in datasets.items()}
     return {name: str(unit) for name, unit in units.items() if unit is not None}
