@@ -27,7 +27,7 @@ def plan(models: Models, scene: Scene) -> str:
             f"realizations of them in {least}."
         )
     return (
-        f"Accuracy: {scene.campaign.accuracy} of the mean run-out are wanted for sampling and mesh together. "
+        f"{scene.campaign.accuracy} of the mean run-out are wanted for sampling and mesh together. "
         f"First {PILOT_OF_FINEST} realizations with cells of {own / 2:g} m and {PILOT} of each cheaper model tell "
         f"scatter and correlation, in {known}; then as many of each as cost least.{further}"
     )

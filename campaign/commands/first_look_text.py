@@ -115,6 +115,8 @@ def _field(size: FieldSize) -> str:
 
 
 def _cost(scene: Scene) -> str:
+    if scene.campaign.accuracy is not None:
+        return _cost_of_accuracy(scene)
     hours = core_seconds(scene) / 3600.0
     return (
         f"At most {duration(max(realization_seconds(scene), 1.0))} a realization, and "
@@ -122,3 +124,11 @@ def _cost(scene: Scene) -> str:
         f"with {pairs(scene):,} repeated at half the cell and {with_more_of_an_input(scene):,} with one input changed, "
         f"at {speed(scene) / 1e6:.2g} million particle-steps a second."
     )
+
+
+def _cost_of_accuracy(scene: Scene) -> str:
+    """Say what the first runs cost; the others depend on these."""
+    from campaign.accuracy.settings import models_of  # which take SciPy, as nothing else here does
+    from campaign.accuracy.wording import plan
+
+    return plan(models_of(scene), scene)

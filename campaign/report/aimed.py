@@ -8,6 +8,11 @@ from campaign.statistics.wording import metres
 from campaign.terminal import counted
 
 
+def is_aimed(results: Results) -> bool:
+    """Whether an accuracy was asked for, and something slid."""
+    return reached_of(results.data) is not None
+
+
 def from_all_models(results: Results) -> str:
     """Say how far the slide runs on average and what that rests on; "" where no accuracy was asked for."""
     reached = reached_of(results.data)

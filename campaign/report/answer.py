@@ -8,7 +8,7 @@ import numpy as np
 
 from campaign.record import Status
 from campaign.report import estimates
-from campaign.report.aimed import from_all_models
+from campaign.report.aimed import from_all_models, is_aimed
 from campaign.report.cut_short import Cause, at_least, causes, in_one_clause
 from campaign.results.results import Results
 from campaign.statistics.intervals import Interval
@@ -121,6 +121,10 @@ def _runout(results: Results) -> str:
     if mean.n == 1:
         return f"That slide ran {least}{mean.estimate:.2f} m. It takes two slides or more to say how sure that is."
     given = " where it slides" if mean.n < results.outcomes.usable else ""
+    if is_aimed(results):
+        return (
+            f"The slides of these cells ran {least}{mean.estimate:.2f} m on average, sampling ±{mean.half_width:.2f} m."
+        )
     return (
         f"The slide runs {least}{total.estimate:.2f} m on average{given}, {metres(total)} with "
         f"{100 * results.confidence:g} % confidence: {_parts(results, mean)}."

@@ -83,7 +83,7 @@ def to_accuracy(scene: Scene, means: Means) -> Sampled:
         If the scene has no models that could tell.
     """
     models = models_of(scene)
-    say(plan(models, scene))
+    say(f"Accuracy: {plan(models, scene)}")
 
     def compute(counts: Mapping[Model, int]) -> dict[Model, Runs]:
         cheapest_first = reversed([*counts.items()])

@@ -7,11 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from campaign.commands.first_look_text import first_look_text
+from campaign.errors import SceneError
 from campaign.scene import Scene, load_scene
+from campaign.scene.constraints import tolerance
 from campaign.scene.document import read_document
 from campaign.scene.first_look import FirstLook, look_at
 from campaign.scene.limit_equilibrium import critical_circle, factor_on
 from campaign.scene.outlook import outlook
+from campaign.simulation.field_size import field_size
 from solver.surface import slope_surface
 
 
@@ -138,3 +142,30 @@ def test_what_softening_may_add_depends_on_the_factor_of_safety(peak, share, wor
     assert told.startswith(f"Some realizations slide: {share} if each had one strength everywhere")
     assert re.search(words, told)
     assert "perhaps most" not in told
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("3 kPa", 'but that is a pressure, and a length is needed, for instance "2 m".'),
+        ("0.03", "but it must be a share or a length of the mean run-out"),
+        ("150 %", "but it must be above 0, and a share below 100 %."),
+        ("0 m", "but it must be above 0, and a share below 100 %."),
+    ],
+)
+def test_an_accuracy_is_a_share_or_a_length(text, words):
+    with pytest.raises(SceneError, match=re.escape(words)):
+        load_scene("ma2023", [f"campaign.accuracy={text}"])
+
+
+@pytest.mark.parametrize(("text", "metres"), [("3 %", 0.3), ("25 cm", 0.25)])
+def test_an_accuracy_is_in_metres_of_a_mean(text, metres):
+    asked = load_scene("ma2023", [f"campaign.accuracy={text}"]).campaign.accuracy
+    assert tolerance(asked).metres(10.0) == pytest.approx(metres)
+
+
+def test_who_asks_for_an_accuracy_is_told_what_the_first_runs_cost():
+    scene = load_scene("ma2023", ["campaign.accuracy=3 %"])
+    text = " ".join(first_look_text(scene, look_at(scene), field_size(scene)).split())
+    assert "First 12 realizations with cells of 0.5 m and 32 of each cheaper model" in text
+    assert "core-hours for all" not in text
