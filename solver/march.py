@@ -9,6 +9,7 @@ from solver.constants import STANDARD_GRAVITY
 from solver.energy_guard import MOST_CREATED_EARLY, EnergyGuard
 from solver.grid import Grid
 from solver.history import MarchEnd, MarchHistory, Moment, moment
+from solver.materials import intact_share
 from solver.model import Model
 from solver.particles import Particles, copy_particles
 from solver.rest import RestBy, RestDetector, StandDetector
@@ -184,7 +185,14 @@ def march_to_rest(
     march = March(model, start, settled)
     series = {name: np.full(times.size, np.nan) for name in Moment._fields}
     rest = RestDetector(model.criteria)
-    stand = StandDetector(model.criteria, model.surface.relief, float(start.mass.sum()), model.ramp_time)
+    stand = StandDetector(
+        model.criteria,
+        model.surface.relief,
+        model.slowest_period,
+        float(start.mass.sum()),
+        float(times[-1]),
+        model.ramp_time,
+    )
     end, rest_by, walls = MarchEnd.END_TIME, RestBy.NEVER, Walls()
     failure = None
     for k, time in enumerate(times):
@@ -204,7 +212,7 @@ def march_to_rest(
         if rest.is_over(*signs):
             end, rest_by = MarchEnd.AT_REST, rest.by
             break
-        if stand.stands(*signs):
+        if stand.stands(*signs, intact_share(march.particles, model.materials)):
             end, rest_by = MarchEnd.STANDS, RestBy.STANDING
             break
     if failure:

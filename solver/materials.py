@@ -4,6 +4,7 @@ A particle carries the number of its material. Eight particles that are updated 
 that one of them has is evaluated for all, and each takes its own.
 """
 
+from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -34,6 +35,11 @@ class Material(NamedTuple):
     def wave_speed(self) -> float:
         """P-wave speed in m/s."""
         return p_wave_speed(self.law.bulk_modulus, self.law.shear_modulus, self.density)
+
+    @property
+    def shear_wave_speed(self) -> float:
+        """S-wave speed in m/s."""
+        return sqrt(self.law.shear_modulus / self.density)
 
 
 class Deformed(NamedTuple):
@@ -113,12 +119,18 @@ def _one_or_several(
     return one if len(laws) == 1 else first_and_others
 
 
-def mobilised_strength(particles: Particles, materials: tuple[Material, ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Return what softening has left of cohesion (Pa) and friction angle (rad), each (n,)."""
+def intact_share(particles: Particles, materials: tuple[Material, ...]) -> np.ndarray:
+    """Return the share that is left of the drop from peak to residual strength, (n,)."""
     share = np.empty_like(particles.plastic_strain)
     for number, material in enumerate(materials):
         is_here = particles.material == number
         share[is_here] = remaining_shares(particles.plastic_strain[is_here], material.law.softening)
+    return share
+
+
+def mobilised_strength(particles: Particles, materials: tuple[Material, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Return what softening has left of cohesion (Pa) and friction angle (rad), each (n,)."""
+    share = intact_share(particles, materials)
     return (
         softened(particles.cohesion, particles.cohesion_residual, share),
         softened(particles.friction_angle, particles.friction_angle_residual, share),

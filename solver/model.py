@@ -40,6 +40,11 @@ class Model(NamedTuple):
         return max(material.wave_speed for material in self.materials)
 
     @property
+    def slowest_period(self) -> float:
+        """Longest period in s in which the ground swings on its base: a shear wave goes up and down twice."""
+        return 4.0 * self.surface.top / min(material.shear_wave_speed for material in self.materials)
+
+    @property
     def particle_spacing(self) -> float:
         """Distance in m between particles on their lattice."""
         return particle_spacing(self.cell_size, self.particles_per_cell)
