@@ -10,7 +10,7 @@ from campaign.scene.sections import Campaign, Slide
 from campaign.seeds import BASELINE
 from campaign.statistics.tally import Tally, tally_for
 from campaign.storage import manifest
-from campaign.storage.layout import CHANGED_INPUTS, HALF_CELL, RESULTS
+from campaign.storage.layout import CHANGED_INPUTS, HALF_CELL, MODELS, RESULTS
 from campaign.storage.lock import DirectoryLock
 from campaign.storage.record_store import RecordStore
 from campaign.terminal import counted, refresh
@@ -33,8 +33,10 @@ def status(directory: Path) -> str:
     lines += [f"  {sentence}" for sentence in damaged]
     if repeated := len(RecordStore(directory / HALF_CELL).finished() - {BASELINE}):
         lines.append(f"  {repeated} repeated with half the cell, for the discretisation error")
-    if changed := sum(len(RecordStore(each).finished()) for each in (directory / CHANGED_INPUTS).glob("*")):
-        lines.append(f"  {changed} repeated with more of one input")
+    others = {MODELS: "repeated as other models of the scene", CHANGED_INPUTS: "repeated with more of one input"}
+    for room, meaning in others.items():
+        if count := sum(len(RecordStore(each).finished()) for each in (directory / room).glob("*")):
+            lines.append(f"  {count} {meaning}")
     results = directory / RESULTS
     return "\n".join([*lines, f"  {results}" if results.exists() else "  no results.nc yet"])
 

@@ -1,5 +1,7 @@
 """A campaign with an accuracy as its aim runs the same models and says the same, however it is computed."""
 
+import shutil
+
 import pytest
 from stand_in_campaign import assert_same, campaign, dataset_of
 
@@ -26,21 +28,24 @@ def test_ranks_do_not_change_it(undisturbed, tmp_path):
     assert_same(dataset_of(tmp_path, 200, 3, AIM), undisturbed[0])
 
 
-def test_what_is_lost_is_run_again_and_nothing_else_changes(tmp_path, undisturbed):
-    dataset_of(tmp_path, 200, 2, AIM)
-    lost = [tmp_path / "half-cell/records/realization-000003.h5", tmp_path / "records/realization-000030.h5"]
+@pytest.fixture
+def copied(undisturbed, tmp_path):
+    return shutil.copytree(undisturbed[1], tmp_path / "copied")
+
+
+def test_what_is_lost_is_run_again_and_nothing_else_changes(copied, undisturbed):
+    lost = [copied / "half-cell/records/realization-000003.h5", copied / "records/realization-000030.h5"]
     for path in lost:
         path.unlink()
-    assert_same(dataset_of(tmp_path, 200, 2, AIM), undisturbed[0])
+    assert_same(dataset_of(copied, 200, 2, AIM), undisturbed[0])
     assert all(path.exists() for path in lost)
 
 
-def test_a_plain_campaign_continues_with_the_same_records(tmp_path):
-    dataset_of(tmp_path, 200, 2, AIM)
-    kept = (tmp_path / "records/realization-000007.h5").stat().st_mtime_ns
-    code, output = campaign(tmp_path, 60, 2)
+def test_a_plain_campaign_continues_with_the_same_records(copied):
+    kept = (copied / "records/realization-000007.h5").stat().st_mtime_ns
+    code, output = campaign(copied, 60, 2)
     assert code == 0, output
-    assert (tmp_path / "records/realization-000007.h5").stat().st_mtime_ns == kept
+    assert (copied / "records/realization-000007.h5").stat().st_mtime_ns == kept
 
 
 def test_a_machine_that_fails_ends_it_so_that_it_can_be_continued(tmp_path):

@@ -41,15 +41,15 @@ def test_cheaper_models_narrow_the_interval_without_moving_it_away():
 
 @pytest.mark.parametrize(("order", "chance"), [(1.0, 0.6), (2.0, 1.0)])
 def test_intervals_hold_the_mean_on_the_mesh_and_in_the_limit(order, chance):
-    """Of 150 campaigns: 90 % of a true 95 % are missed by 1 seed in 200; the total interval holds more."""
+    """Of 100 campaigns a true 95 % is below 88 % in 1 of 400 seeds; the total interval holds more."""
     on_mesh = in_limit = 0
-    for seed in range(150):
+    for seed in range(100):
         nature = Nature(seed, order=order, chance=chance)
         found = mesh_limit(models_of(nature), WHOLE, 0.95)
         on_mesh += found.counted.lower <= nature.mean(QUARTER) <= found.counted.upper
         in_limit += found.total.lower <= MEAN <= found.total.upper
-    assert 0.90 <= on_mesh / 150 <= 0.99
-    assert in_limit / 150 >= 0.92
+    assert 0.88 <= on_mesh / 100
+    assert in_limit / 100 >= 0.90
 
 
 def test_a_mean_of_slides_leaves_out_what_does_not_slide():
