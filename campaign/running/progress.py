@@ -104,4 +104,7 @@ def _time_left(tally: Tally, rate: float, ahead: Ahead) -> str:
     after = ahead(tally, rate)
     whole = duration((needed - tally.done) / rate + after)
     parts = f", {duration(after)} of it for mesh, release and inputs" if after else ""
-    return f"{forecast or ' |'}{',' if forecast else ''} {whole} left{parts}"
+    if forecast:
+        return f"{forecast}, {whole} left{parts}"
+    may_end_earlier = tally.rule.minimum <= tally.maximum
+    return f" | {'at most ' if may_end_earlier else ''}{whole} left{parts}"

@@ -45,7 +45,7 @@ def test_the_time_left_is_that_of_all_runs(monkeypatch):
     monkeypatch.setattr("campaign.running.progress.time.monotonic", lambda: next(times))
     progress = Progress(filled([]), lambda _tally, rate: 30.0 * rate)
     line = progress.line(filled([BASELINE, *range(12)]))
-    assert line.endswith("| 3 min left, 60 s of it for mesh, release and inputs")
+    assert line.endswith("| at most 3 min left, 60 s of it for mesh, release and inputs")
 
 
 @pytest.mark.parametrize(
