@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from ladder import CELL, HALF, LADDERS, MEAN, OWN, QUARTER, Nature
+from nature import CELL, HALF, LADDERS, MEAN, OWN, QUARTER, Nature
 
 from campaign.accuracy.mesh_limit import Runs, mesh_limit, sampled
 from campaign.statistics.intervals import mean_interval

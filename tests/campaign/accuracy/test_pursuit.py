@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from ladder import HALF, LADDERS, MEAN, QUARTER, Nature
+from nature import HALF, LADDERS, MEAN, QUARTER, Nature
 
 from campaign.accuracy.pursuit import GROWTH, Wanted, pursue
 from campaign.scene.constraints import Tolerance

@@ -27,7 +27,7 @@ def test_a_scene_is_looked_at(capsys):
         "Nearly every realization slides.",
         "after 6.7 to 22 s, half of them before 10 s. The run ends at 10 s.",
         "300 x 76 points, 0.25 m apart",
-        "core-hours for all 1,000, with 4 repeated",
+        "core-hours for all 1,000, with 8 repeated",
         "for each rank (process); the results take",
     ):
         assert part in flat

@@ -34,6 +34,7 @@ def results(runouts, statuses, raised=None, rest=None, influence=None):
         "final_runout": ("realization", np.array(runouts, dtype=float)),
         "final_runout_mass": ("realization", np.array(runouts, dtype=float)),
         "status": ("realization", np.array([int(each) for each in statuses])),
+        "reason": ("realization", np.full(n, "", dtype=object)),
     }
     return Results(xr.Dataset(data, {"realization": np.arange(n)}, {"toe_x": 0.0}), SCENE)
 
@@ -103,9 +104,11 @@ def test_a_single_slide_is_told_without_an_interval():
 
 def test_walls_and_failures_are_told_first():
     statuses = [Status.slid] * 8 + [Status.reached_wall, Status.not_settled, Status.crashed]
-    probability, median, _ = headline.tiles(results([*np.arange(1.0, 11.0), np.nan], statuses))
+    probability, median, far = headline.tiles(results([*np.arange(1.0, 11.0), np.nan], statuses))
     assert probability.remark == "10 of 10 simulated slopes slid; 1 failed"
-    assert median.remark == "lower bound: of 10 slides a wall stopped 1 and 1 still moved at the end"
+    assert (median.value, median.interval) == ("5.5 m", "at least 2.0 m")
+    stopped = "a wall of the model stopped 1 of 10 slides and 1 of 10 slides still moved when the run ended"
+    assert (far.value, far.remark) == ("at least 9.5 m", f"lower bound: {stopped}")
 
 
 def test_ground_raised_ahead_of_the_fronts_is_told_beside_them():
