@@ -9,6 +9,7 @@ from campaign.scene.first_look import LONGEST_SLIDE, TYPICAL_SLIDE, FirstLook
 from campaign.scene.front import front_of_particles, front_of_the_slide
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
+from campaign.scene.sections import Campaign
 from campaign.scene.softening import is_brittle
 from campaign.scene.toe import misplaced_toe
 from campaign.terminal import duration, rounded_down, rounded_up
@@ -40,6 +41,10 @@ SOILS = (
 )
 """Keys, the SI values between which they are not remarked on, and what soils have."""
 
+FEWEST_PAIRS = 4
+"""With half the cell, of which Student's t makes a 95 % interval of 1.6 standard deviations to either side; of 3 it is
+2.5 and of 2 it is 9."""
+
 MANY_HOURS = 1e5
 """Core-hours beyond which a campaign is more likely a slip of the pen than a plan."""
 
@@ -58,6 +63,7 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
             short_interval(scene),
             damped_slide(scene),
             short_timeout(scene),
+            few_pairs(scene),
             large_campaign(scene),
             *(unusual_soil(scene, *row) for row in SOILS),
         )
@@ -191,6 +197,18 @@ def short_timeout(scene: Scene) -> Complaint | None:
         "campaign.realization_timeout",
         f"a realization of {particle_count(scene):,} particles and {step_count(scene):,} steps may take "
         f'{duration(needed)}; use at least "{rounded_up(2.0 * needed / 3600.0)} h", or larger cells',
+    )
+
+
+def few_pairs(scene: Scene) -> Complaint | None:
+    """Warn of pairs with half the cell that are too few for Student's t to tell what the mesh does."""
+    pairs = scene.campaign.discretisation_pairs
+    if not 0 < pairs < FEWEST_PAIRS:
+        return None
+    return Complaint(
+        "campaign.discretisation_pairs",
+        "so few pairs hardly bound what half the cell changes, and the total interval may be many times as wide as the "
+        f"slides scatter; use {Campaign.model_fields['discretisation_pairs'].default}, or 0 to leave the mesh out",
     )
 
 

@@ -47,6 +47,7 @@ def test_the_built_in_scenes_are_sound(source):
         (["numerics.flip=0.999"], "--set numerics.flip is 0.999, but this damping takes about 0.8% of the work"),
         (["campaign.realization_timeout=1 s", "numerics.cell=0.5 m"],
          'may take 5 s; use at least "0.0029 h", or larger cells'),
+        (["campaign.discretisation_pairs=2"], "is 2, but so few pairs hardly bound what half the cell changes"),
         (["campaign.realizations=1000000000"], "core-hours; use fewer, or larger cells"),
         (["slide.front_area=0.1 m^2"], 'leaves 0.1 m2 ahead of it, 0.4 particles of 0.25 m2, and'),
         (["soil.softening.slip_to_residual=0.3 m"], 'decide the run-out; use "1 m^2" or more, or smaller cells'),
