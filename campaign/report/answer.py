@@ -15,7 +15,7 @@ from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import results_to_bound
 from campaign.statistics.stopping import RARE
 from campaign.statistics.total import has_mesh_error
-from campaign.statistics.wording import chance, chance_of_slide, chances, metres
+from campaign.statistics.wording import chance, chance_of_slide, chances, estimated_chance, metres
 from campaign.terminal import counted
 
 OUTCOMES = {
@@ -187,10 +187,10 @@ def _comparison(results: Results) -> str:
     farther, some = estimates.exceedance(results, distance), ""
     than = f" than these {distance:.2f} m" if at_least(run) else ""
     if slides < results.outcomes.usable:
-        some = f", {chance(estimates.exceedance_given_sliding(results, distance).estimate)} of those that slide"
+        some = f", {estimated_chance(estimates.exceedance_given_sliding(results, distance))} of those that slide"
     return (
-        f"{with_mean} it would run {at_least(run)}{distance:.2f} m; {chance(farther.estimate)} of all realizations run "
-        f"farther{than} ({chances(farther)}){some}."
+        f"{with_mean} it would run {at_least(run)}{distance:.2f} m; {estimated_chance(farther)} of all realizations "
+        f"run farther{than} ({chances(farther)}){some}."
     )
 
 

@@ -8,7 +8,7 @@ from campaign.report import estimates
 from campaign.results.results import Results
 from campaign.simulation.solver_model import Array
 from campaign.statistics.intervals import Interval
-from campaign.statistics.wording import chance, chances
+from campaign.statistics.wording import chances, estimated_chance
 
 ROWS = 8
 """About so many distances in the table."""
@@ -41,7 +41,7 @@ class Curve(NamedTuple):
     def words(self, distance: float) -> str:
         """Return the probability of a run-out beyond a distance (m) with its interval."""
         share = self.at(distance)
-        return f"{chance(share.estimate)} ({chances(share)})"
+        return f"{estimated_chance(share)} ({chances(share)})"
 
 
 class Curves(NamedTuple):

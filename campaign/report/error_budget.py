@@ -13,7 +13,7 @@ from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import failure_bounds
 from campaign.statistics.total import has_mesh_error
-from campaign.statistics.wording import chance, chances, metres
+from campaign.statistics.wording import chance, chances, estimated_chance, metres
 from campaign.terminal import counted
 
 NOT_ESTIMATED = "not estimated"
@@ -99,7 +99,7 @@ def _exceedance(results: Results) -> list[Row]:
 
 
 def _probability(name: str, share: Interval) -> Row:
-    return Row("Sampling", name, chance(share.estimate), chances(share), str(share.n))
+    return Row("Sampling", name, estimated_chance(share), chances(share), str(share.n))
 
 
 def _cut_short(results: Results) -> list[Row]:

@@ -15,7 +15,7 @@ from campaign.results.results import Results
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import results_to_bound
 from campaign.statistics.total import has_mesh_error
-from campaign.statistics.wording import chance, chance_of_slide, chances
+from campaign.statistics.wording import chance, chance_of_slide, chances, estimated_chance
 from campaign.terminal import counted
 
 
@@ -120,6 +120,6 @@ def _reach(each: Reach) -> Tile:
     front = each.front
     open_ends = front.open_bounds[1] > front.interval.upper
     cut_short = f"up to {chance(front.open_bounds[1])} if those cut short got there" if open_ends else ""
-    pushed = f"any moved ground: {chance(each.moved.interval.estimate)}, {chance_of_slide(each.moved.interval)}"
+    pushed = f"any moved ground: {estimated_chance(each.moved.interval)}, {chance_of_slide(each.moved.interval)}"
     remark = "; ".join(filter(None, [cut_short, pushed if each.is_pushed_farther else ""]))
-    return Tile(front.receptor, chance(front.interval.estimate), chance_of_slide(front.interval), remark)
+    return Tile(front.receptor, estimated_chance(front.interval), chance_of_slide(front.interval), remark)

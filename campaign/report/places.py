@@ -20,7 +20,7 @@ from campaign.statistics.receptors import (
     ReceptorEstimate,
     receptor_estimates,
 )
-from campaign.statistics.wording import chance, chances
+from campaign.statistics.wording import chances, estimated_chance
 from campaign.terminal import counted
 
 MOVEMENT = {
@@ -171,7 +171,7 @@ def distribution(name: str, values: Sample, unit: str, confidence: float) -> Dis
 def _place(results: Results, receptor: Receptor, reach: list[ReceptorEstimate]) -> Place:
     name, (near, far) = receptor.name, receptor.x
     probabilities = [
-        (each.quantity.removeprefix("probability that "), chance(each.interval.estimate), chances(each.interval))
+        (each.quantity.removeprefix("probability that "), estimated_chance(each.interval), chances(each.interval))
         for each in reach
         if each.receptor == name
     ]

@@ -9,7 +9,7 @@ from campaign.report.inputs import sentences
 from campaign.report.places import reach_estimates
 from campaign.report.reservations import reasons_for_doubt
 from campaign.results.results import Results
-from campaign.statistics.wording import chance, chances
+from campaign.statistics.wording import chances, estimated_chance
 from campaign.terminal import counted, paragraph, width
 
 
@@ -41,7 +41,7 @@ def _places(results: Results) -> list[str]:
     """Return lines on whether slides reach receptors, below a heading; nothing without receptors or results."""
     known = reach_estimates(results)
     lines = [
-        f"  {each.receptor:16}{each.quantity}: {chance(each.interval.estimate)} ({chances(each.interval)})"
+        f"  {each.receptor:16}{each.quantity}: {estimated_chance(each.interval)} ({chances(each.interval)})"
         for reach in known
         for each in reach
     ]

@@ -17,10 +17,24 @@ def chance(probability: float) -> str:
     return f"{100 * probability:.{2 if probability < 0.1 else 3}g} %"
 
 
+def is_open(probability: Interval) -> bool:
+    """Whether nothing bounds a probability from above, as walls of the model stopped all that did not get so far."""
+    return probability.estimate < 1 <= probability.upper
+
+
+def estimated_chance(probability: Interval) -> str:
+    """Write the estimate of a probability: "35 %", "at least 89 %" where nothing bounds it from above."""
+    if not is_open(probability):
+        return chance(probability.estimate)
+    return f"at least {chance(probability.estimate)}" if probability.estimate > 0 else "not known"
+
+
 def chances(interval: Interval) -> str:
-    """Write the bounds of a probability in per cent, "35 to 55 %"."""
+    """Write the bounds of a probability in per cent, "35 to 55 %"; without an upper one "at least 35 %"."""
     if not interval.is_known:
         return "not enough realizations"
+    if is_open(interval) and interval.lower > 0:
+        return f"at least {chance(interval.lower)}"
     return f"{chance(interval.lower).removesuffix(' %')} to {chance(interval.upper)}"
 
 

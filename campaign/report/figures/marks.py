@@ -12,7 +12,7 @@ from campaign.report.figures.style import BLACK, BLUE, ORANGE
 from campaign.report.places import Reach, reach_estimates
 from campaign.report.wording import bounds
 from campaign.results.results import Results
-from campaign.statistics.wording import chance, chances
+from campaign.statistics.wording import chances, estimated_chance
 
 STOPS: Final = {0.5: "half", estimates.FAR: f"{100 * estimates.FAR:g} %"}
 """Shares of the slides whose reach is marked."""
@@ -64,10 +64,10 @@ def _receptors(results: Results, section: Section) -> list[Label]:
 
 def _receptor(each: Reach, near: float, section: Section) -> Label:
     ground, front = float(section.surface.height_at(np.array([near]))[0]), each.front
-    share, name = chance(front.interval.estimate), front.receptor
+    share, name = estimated_chance(front.interval), front.receptor
     told = f"probability that the slide's front reaches {name}: {share} ({chances(front.interval)})"
     words = f"{name}: {share}"
     if each.is_pushed_farther:
-        moved = chance(each.moved.interval.estimate)
+        moved = estimated_chance(each.moved.interval)
         told, words = f"{told}; that any moved ground does: {moved}", f"{words}, moved ground {moved}"
     return Label(near, ground, words, ORANGE, told)

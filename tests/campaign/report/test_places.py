@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from scipy import special
 from small_campaign import small_scene
 
 from campaign.record import Status
@@ -40,6 +41,20 @@ def test_moved_ground_is_told_beside_the_front_where_it_gets_there_more_often(fr
     assert tile.remark == told
     (reach,) = reach_estimates(results(front, [1] * 4))
     assert reach.is_pushed_farther == bool(told)
+
+
+def test_where_walls_stopped_all_others_nothing_bounds_a_probability_from_above():
+    """Three of four get there; a wall stopped the fourth. The lower bound is that of Clopper and Pearson."""
+    given = results([1, 1, 1, 0], [1] * 4)
+    stopped = ("realization", np.array([int(Status.slid)] * 3 + [int(Status.reached_wall)]))
+    walled = Results(given.data.assign(status=stopped), given.scene)
+    least = f"at least {100 * special.betaincinv(3, 2, 0.025):.0f} %"
+    (tile,) = headline.reaches(walled)
+    assert (tile.value, tile.interval) == ("at least 75 %", least)
+    (place,) = places(walled)
+    assert place.chances[0][1:] == ("at least 75 %", least)
+    (free,) = headline.reaches(given)
+    assert free.value == "75 %"
 
 
 def test_what_comes_ahead_of_the_front_is_told_apart():
