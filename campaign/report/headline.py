@@ -122,4 +122,7 @@ def _reach(each: Reach) -> Tile:
     cut_short = f"up to {chance(front.open_bounds[1])} if those cut short got there" if open_ends else ""
     pushed = f"any moved ground: {estimated_chance(each.moved.interval)}, {chance_of_slide(each.moved.interval)}"
     remark = "; ".join(filter(None, [cut_short, pushed if each.is_pushed_farther else ""]))
-    return Tile(front.receptor, estimated_chance(front.interval), chance_of_slide(front.interval), remark)
+    value = estimated_chance(front.interval)
+    if front.interval.estimate == 0 and each.is_pushed_farther:
+        value = f"front {value}, moved ground {estimated_chance(each.moved.interval)}"
+    return Tile(front.receptor, value, chance_of_slide(front.interval), remark)

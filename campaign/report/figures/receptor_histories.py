@@ -15,7 +15,7 @@ def histories(results: Results, receptor: str) -> Illustration:
     data = results.data.sel(receptor=receptor)
     is_reached = data["front_reaches"].values == 1.0
     n, time = int(np.count_nonzero(is_reached)), data["time"].values
-    need(n > 0, f"No slide has reached {receptor}.")
+    need(n > 0, f"The front of no slide has reached {receptor}.")
     figure, panels = new_figure(3.6, 2, width=COLUMN, sharex=True)
     for axes, (name, label) in zip(panels, PANELS.items(), strict=True):
         draw_histories(axes, time, data[name].values[is_reached])

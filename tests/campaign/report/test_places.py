@@ -57,6 +57,11 @@ def test_where_walls_stopped_all_others_nothing_bounds_a_probability_from_above(
     assert free.value == "75 %"
 
 
+def test_moved_ground_is_seen_first_where_no_front_comes():
+    assert headline.reaches(results([0] * 4, [1, 1, 0, 0]))[0].value == "front 0 %, moved ground 50 %"
+    assert headline.reaches(results([0] * 4, [0] * 4))[0].value == "0 %"
+
+
 def test_what_comes_ahead_of_the_front_is_told_apart():
     """2, 3 and 4 m deep where the front does not get there; where it does, only what comes with it."""
     (place,) = places(results([1, 0, 0, 0], [1] * 4))
