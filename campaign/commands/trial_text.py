@@ -31,7 +31,9 @@ def _outcome(made: Trial) -> str:
         return f"The simulation fails: {record.reason}"
     moves = "still moves at the end of the run" + (", behind its front" if record.status is Status.slid else "")
     how = f"comes to rest after {made.rest:.2g} s" if isfinite(made.rest) else moves
-    where = f"its front is {made.runout:.3g} m beyond the toe, at x = {made.front:.4g} m"
+    is_hindered = record.status is Status.reached_wall
+    least, stopped = ("at least ", ", and a wall of the model hindered it") if is_hindered else ("", "")
+    where = f"its front is {least}{made.runout:.3g} m beyond the toe, at x = {made.front:.4g} m{stopped}"
     return f"The slope slides and {how}; {where}.{_receptors(made)}"
 
 
