@@ -43,7 +43,7 @@ def test_a_sick_rank_takes_no_more_work_and_leaves_no_trace(alone, tmp_path):
     assert_same(dataset(tmp_path / "out"), alone)
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("ranks", [pytest.param(1, marks=pytest.mark.slow), 2])
 def test_memory_that_one_realization_lacks_is_no_status(alone, tmp_path, ranks):
     """It is handed out last again, then the campaign ends so that it can go on; all others are kept."""
     code, output = campaign(tmp_path / "out", ranks=ranks, memory=3)
@@ -84,7 +84,7 @@ def test_a_raised_timeout_runs_again_what_took_too_long(tmp_path):
     assert_same(dataset_of(directory, 4), dataset_of(tmp_path / "alone", 4, 1))
 
 
-@pytest.mark.parametrize("ranks", [1, 3])
+@pytest.mark.parametrize("ranks", [pytest.param(1, marks=pytest.mark.slow), 3])
 def test_a_realization_that_hangs_is_ended_and_skipped_after_the_second_time(tmp_path, ranks):
     """Also where rank 0 itself hangs, and is ended by its own thread."""
     directory, short = tmp_path / "out", ["campaign.realization_timeout=0.5 s"]

@@ -259,7 +259,7 @@ def test_the_number_of_ranks_leaves_no_trace_in_the_repeated(paired, tmp_path):
     assert_same(dataset(tmp_path / "out"), paired)
 
 
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+@pytest.mark.parametrize("number", [pytest.param(signal.SIGKILL, marks=pytest.mark.slow), signal.SIGTERM])
 def test_an_end_among_the_repeated_leaves_no_trace(paired, tmp_path, number):
     directory = tmp_path / "out"
     process = start(directory, 20, 2, [PAIRS], seconds=0.1)
@@ -300,7 +300,7 @@ def test_slides_are_repeated_with_more_of_one_input(with_more):
     assert with_more.input_difference.dims == ("input", "input_pair")
 
 
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGKILL, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)])
 def test_an_end_among_the_changed_inputs_leaves_no_trace(with_more, tmp_path, number):
     directory = tmp_path / "out"
     process = start(directory, 20, 2, [MORE], seconds=0.1)
