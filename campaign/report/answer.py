@@ -98,9 +98,11 @@ def _chance(results: Results) -> str:
 def _bounded_by_less(results: Results) -> str:
     """Say how to ask for more than that slides are rare."""
     number = results_to_bound(RARER, results.confidence)
+    is_too_many = number > results.scene.campaign.realizations
+    raised = f", and raise campaign.realizations to {number} or more" if is_too_many else ""
     return (
         f"About {number:,} realizations without a slide bound it by {100 * RARER:g} %: ask for "
-        f"campaign.slide_probability_tolerance = {RARER / 2:g}, which is half of that."
+        f"campaign.slide_probability_tolerance = {RARER / 2:g}, which is half of that{raised}."
     )
 
 
