@@ -163,9 +163,10 @@ def _spread(results: Results) -> str:
     is_bounded, least = results.outcomes.bound_the_mean, "at least " if results.outcomes.cut_short else ""
     interval = f" ({metres(std)})" if std.is_known and is_bounded else ""
     so_far = "" if is_bounded else ", as far as they came,"
+    of_shortest = "at least " if results.outcomes.is_cut_short[runouts.argmin()] else ""
     return (
         f"Single slides{so_far} scatter by a standard deviation of {std.estimate:.2f} m{interval}; the shortest ran "
-        f"{runouts.min():.2f} m, the longest {least}{runouts.max():.2f} m."
+        f"{of_shortest}{runouts.min():.2f} m, the longest {least}{runouts.max():.2f} m."
     )
 
 

@@ -163,3 +163,8 @@ def test_slides_that_still_move_are_counted_not_shared_out(twenty):
     assert moving(0).endswith("In the last 1 s its front advanced by 0.00 m.")
     assert "2 of 20 slides still moved when the run ended (numerics.end_time): their run-outs are" in moving(0, 1)
     assert "of these 2 advanced by more than 1 cm" in moving(0, 1)
+
+
+def test_the_shortest_slide_is_bounded_below_where_it_was_cut_short(twenty):
+    assert "the shortest ran at least 10.00 m" in answer(ended(twenty, stopped=[0]))
+    assert "the shortest ran 10.00 m" in answer(ended(twenty, stopped=[5]))
