@@ -66,7 +66,7 @@ class Sampled(NamedTuple):
 
 
 class MeshLimit(NamedTuple):
-    """The mean run-out of a slide.
+    """The mean run-out of a slide, with intervals.
 
     Attributes
     ----------
@@ -83,9 +83,32 @@ class MeshLimit(NamedTuple):
     total: Interval
 
     @property
+    def mesh(self) -> float:
+        """Size in m of the mesh error: that of the change by the last halving."""
+        return abs(self.change.estimate)
+
+    @property
     def error(self) -> float:
         """The larger distance in m from the estimate to a bound of the total interval."""
         return max(self.total.estimate - self.total.lower, self.total.upper - self.total.estimate)
+
+
+class LimitMeans(NamedTuple):
+    """The mean run-out of a slide on the finest mesh, at the two outermost limits, and its change by the last halving.
+
+    How well the outermost ones are known decides how many realizations it takes.
+    """
+
+    finest: NestedMean
+    outermost: tuple[NestedMean, NestedMean]
+    change: NestedMean
+
+    def at(self, confidence: float) -> MeshLimit:
+        """Return the intervals."""
+        counted, change = self.finest.interval(confidence), self.change.interval(confidence)
+        bounds = [counted, *(mean.interval(confidence) for mean in self.outermost)]
+        lower, upper = min(each.lower for each in bounds), max(each.upper for each in bounds)
+        return MeshLimit(counted, change, counted._replace(lower=max(0.0, lower), upper=upper))
 
 
 def sampled(models: Sequence[Runs]) -> list[Sampled]:
@@ -101,26 +124,15 @@ def _without(runs: Runs, failed: NDArray[np.bool_]) -> Sampled:
     return Sampled(runout, slid, controlled(runout, field), controlled(slid, field))
 
 
-def mesh_limit(models: Sequence[Sampled], chain: Sequence[int], confidence: float) -> MeshLimit | None:
-    """Estimate the mean with a chain of the models, the first of them at its head; None where nothing slides.
+def limit_means(models: Sequence[Sampled], chain: Sequence[int]) -> LimitMeans | None:
+    """Estimate the means with a chain of the models, the first of them at its head; None where nothing slides.
 
     The second of the models has cells twice as large as the first, whether or not the chain holds it.
     """
     below, finest, above = (_at(models, chain, j) for j in (OUTERMOST[0], 0.0, OUTERMOST[1]))
     if below is None or finest is None or above is None:
         return None
-    low, counted, high, change = (
-        each.mean().interval(confidence) for each in (below, finest, above, above.minus(finest))
-    )
-    bounds = low, counted, high
-    lower, upper = min(each.lower for each in bounds), max(each.upper for each in bounds)
-    return MeshLimit(counted, change, counted._replace(lower=max(0.0, lower), upper=upper))
-
-
-def outermost_means(models: Sequence[Sampled], chain: Sequence[int]) -> list[NestedMean]:
-    """Return the means at the two outermost limits, which tell how many realizations it takes; none without slides."""
-    limits = (_at(models, chain, j) for j in OUTERMOST)
-    return [limit.mean() for limit in limits if limit is not None]
+    return LimitMeans(finest.mean(), (below.mean(), above.mean()), above.minus(finest).mean())
 
 
 @dataclass(frozen=True)

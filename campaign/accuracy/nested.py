@@ -25,9 +25,8 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from scipy import special
 
-from campaign.statistics.intervals import Interval, Sample
+from campaign.statistics.intervals import Interval, Sample, student_quantile
 
 FEWEST = 4
 """Runs of a model from which on its regression leaves something to judge it by."""
@@ -57,7 +56,7 @@ class NestedMean(NamedTuple):
 
     def interval(self, confidence: float) -> Interval:
         """Return the estimate with Student's t interval."""
-        half_width = half_width_of(self.variance, self.degrees, confidence)
+        half_width = student_quantile(confidence, self.degrees) * math.sqrt(self.variance)
         return Interval(self.estimate, self.estimate - half_width, self.estimate + half_width, self.n)
 
 
@@ -70,11 +69,6 @@ class _Part(NamedTuple):
 
     def passed_on(self, slope: float) -> "_Part":
         return _Part(slope**2 * self.variance, self.degrees, slope**2 * self.scatter)
-
-
-def half_width_of(variance: float, degrees: float, confidence: float) -> float:
-    """Return the half-width of Student's t interval."""
-    return float(special.stdtrit(degrees, (1 + confidence) / 2)) * math.sqrt(variance)
 
 
 def nested_mean(columns: Sequence[Sample], cheapest: Sample | None = None) -> NestedMean:

@@ -10,9 +10,10 @@ from itertools import combinations
 from typing import NamedTuple
 
 from campaign.accuracy.allocation import allocation
-from campaign.accuracy.mesh_limit import MeshLimit, Runs, Sampled, mesh_limit, outermost_means, sampled
-from campaign.accuracy.nested import FEWEST, half_width_of
+from campaign.accuracy.mesh_limit import MeshLimit, Runs, Sampled, limit_means, sampled
+from campaign.accuracy.nested import FEWEST
 from campaign.scene.constraints import Tolerance
+from campaign.statistics.intervals import student_quantile
 
 PILOT_OF_FINEST, PILOT = 12, 32
 """Realizations of the finest mesh, and of all other models, from which their scatter and correlation are judged."""
@@ -128,12 +129,7 @@ class _Look(NamedTuple):
 
     @property
     def is_ruled_by_mesh(self) -> bool:
-        return self.mesh > MESH_SHARE * self.tolerance
-
-    @property
-    def mesh(self) -> float:
-        """Size in m of the mesh error."""
-        return abs(self.limit.change.estimate)
+        return self.limit.mesh > MESH_SHARE * self.tolerance
 
 
 def _look(ladder: Ladder, done: tuple[int, ...], samples: Sequence[Sampled], wanted: Wanted) -> _Look | None:
@@ -154,18 +150,19 @@ def _is_sorted(counts: list[int]) -> bool:
 def _look_with(
     chain: tuple[int, ...], ladder: Ladder, done: tuple[int, ...], samples: Sequence[Sampled], wanted: Wanted
 ) -> _Look | None:
-    limit = mesh_limit(samples, chain, wanted.confidence)
-    if limit is None:
+    means = limit_means(samples, chain)
+    if means is None:
         return None
-    tolerance, mesh = wanted.tolerance.metres(limit.counted.estimate), abs(limit.change.estimate)
-    room = max(tolerance - mesh, LEAST_SAMPLING * mesh)
+    limit = means.at(wanted.confidence)
+    tolerance = wanted.tolerance.metres(limit.counted.estimate)
+    room = max(tolerance - limit.mesh, LEAST_SAMPLING * limit.mesh)
     counts = list(done)
-    for mean in outermost_means(samples, chain):
-        variance = (room / half_width_of(1.0, mean.degrees, wanted.confidence)) ** 2
+    for mean in means.outermost:
+        variance = (room / student_quantile(wanted.confidence, mean.degrees)) ** 2
         least, cost = [len(samples[each].runout) for each in chain], [ladder[each].cost for each in chain]
         for each, with_result, count in zip(chain, least, allocation(mean.scatter, cost, variance, least), strict=True):
             counts[each] = max(counts[each], math.ceil(count * done[each] / with_result))
-    if limit.error > tolerance > mesh and counts == list(done):  # the plan is for averages, and this was no luck
+    if limit.error > tolerance > limit.mesh and counts == list(done):  # the plan is for averages, and this was no luck
         counts = [math.ceil(STEP * count) if each in chain else count for each, count in enumerate(counts)]
     counts[1] = max(counts[1], counts[0])
     wished = tuple(

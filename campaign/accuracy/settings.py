@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from campaign.accuracy.pursuit import Ladder, Model
-from campaign.errors import RefusalError
-from campaign.scene import Scene, kept_scene
+from campaign.errors import RefusalError, SceneError
+from campaign.scene import Scene, load_scene
 from campaign.scene.cost import realization_seconds
 
 OWN = "own"
@@ -79,9 +79,9 @@ def _with(scene: Scene, name: str) -> Scene | None:
         f"soil.young_modulus={stiffness * scene.soil.young_modulus!r} Pa",
     ]
     try:
-        changed = kept_scene(scene.text, [*scene.overrides, *changes])
-    except RefusalError:
+        changed = load_scene(scene, changes)
+    except SceneError:
         return None
     longer = max(1.0, realization_seconds(changed) / realization_seconds(scene))
     timeout = {"realization_timeout": longer * scene.campaign.realization_timeout}
-    return changed.model_copy(update={"campaign": scene.campaign.model_copy(update=timeout), "name": scene.name})
+    return changed.model_copy(update={"campaign": scene.campaign.model_copy(update=timeout)})

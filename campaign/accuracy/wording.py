@@ -46,7 +46,7 @@ def verdict(found: Pursuit, scene: Scene) -> str:
     told = f"the mean run-out is known to {error_of(found.limit)}, {scene.campaign.accuracy} were asked"
     if found.is_reached:
         return f"accuracy reached: {told}"
-    mesh, asked = abs(found.limit.change.estimate), wanted.metres(found.limit.counted.estimate)
+    mesh, asked = found.limit.mesh, wanted.metres(found.limit.counted.estimate)
     why = (
         f"the mesh alone takes {mesh:.2f} m; start from a smaller numerics.cell"
         if mesh > asked / 2

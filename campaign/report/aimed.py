@@ -5,7 +5,7 @@ from campaign.results.accuracy import Reached, reached_of
 from campaign.results.results import Results
 from campaign.scene.units import PRESSURE, shown_in_unit
 from campaign.statistics.wording import metres
-from campaign.terminal import counted
+from campaign.terminal import counted, listing
 
 
 def is_aimed(results: Results) -> bool:
@@ -53,4 +53,4 @@ def models_in_words(reached: Reached) -> str:
         f"{count} with {cell:g} m" + ("" if modulus == stiffest else f" and E = {shown_in_unit(modulus, PRESSURE)}")
         for count, cell, modulus in zip(reached.counts, reached.cells, reached.young_moduli, strict=True)
     ]
-    return f"{told[0].replace('with', 'runs with cells of', 1)}, {', '.join(told[1:-1])} and {told[-1]}"
+    return listing([told[0].replace("with", "runs with cells of", 1), *told[1:]])

@@ -62,12 +62,12 @@ def _aimed(results: Results) -> list[Row]:
     reached = reached_of(results.data)
     if reached is None:
         return []
-    counted, change, total = reached.limit
-    cell, n = reached.cells[0], str(counted.n)
+    mean, change, total = reached.limit
+    cell, n = reached.cells[0], str(mean.n)
     name = "mean run-out of a slide, from all meshes and models"
     return [
         Row("Total", f"{name}, sampling and mesh", f"{total.estimate:.2f} m", metres(total), n),
-        Row("Sampling", f"{name}, with cells of {cell:g} m", f"{counted.estimate:.2f} m", metres(counted), n),
+        Row("Sampling", f"{name}, with cells of {cell:g} m", f"{mean.estimate:.2f} m", metres(mean), n),
         Row("Discretisation", f"{name}, changed by cells of {cell:g} m", *_signed(change), n),
     ]
 

@@ -5,6 +5,7 @@ Which runs that takes depends on the results alone, neither on ranks nor on inte
 
 import math
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -34,7 +35,7 @@ UNASKED = RealizationSummary(BASELINE, Status.no_slide, math.nan, math.nan, math
 """Stands for the deterministic run of models of which nobody asks for it."""
 
 
-class Sampled(NamedTuple):
+class OwnRuns(NamedTuple):
     """The realizations that a campaign has run in its own setting.
 
     Attributes
@@ -74,7 +75,7 @@ class _Stopped(Exception):  # noqa: N818  -- not an error: somebody asked for it
     """Nothing more may be begun."""
 
 
-def to_accuracy(scene: Scene, means: Means) -> Sampled:
+def to_accuracy(scene: Scene, means: Means) -> OwnRuns:
     """Run the models of a scene until its accuracy is reached.
 
     Raises
@@ -85,9 +86,13 @@ def to_accuracy(scene: Scene, means: Means) -> Sampled:
     models = models_of(scene)
     say(f"Accuracy: {plan(models, scene)}")
 
+    @cache  # a round asks again for what does not grow in it
+    def runs(model: Model, count: int) -> Runs:
+        return _runs(model, models.scenes[model], count, means)
+
     def compute(counts: Mapping[Model, int]) -> dict[Model, Runs]:
         cheapest_first = reversed([*counts.items()])
-        return {model: _runs(model, models.scenes[model], count, means) for model, count in cheapest_first}
+        return {model: runs(model, count) for model, count in cheapest_first}
 
     def account(realizations: int) -> Tally:
         return Level(without_rule(scene, realizations), means.home, means.retry).tally()
@@ -95,9 +100,9 @@ def to_accuracy(scene: Scene, means: Means) -> Sampled:
     try:
         pursuit = pursue(models.ladders, _wanted(scene), compute)
     except _Stopped as stopped:
-        return Sampled(account(scene.campaign.realizations), str(stopped))
+        return OwnRuns(account(scene.campaign.realizations), str(stopped))
     aim = Aim(pursuit, models)
-    return Sampled(account(aim.counts[OWN]), "", aim)
+    return OwnRuns(account(aim.counts[OWN]), "", aim)
 
 
 def _wanted(scene: Scene) -> Wanted:

@@ -9,7 +9,7 @@ from campaign.accuracy.wording import verdict as accuracy_verdict
 from campaign.errors import RefusalError
 from campaign.exit_codes import ExitCode
 from campaign.record import Status
-from campaign.running.accuracy import Sampled
+from campaign.running.accuracy import OwnRuns
 from campaign.running.beyond_sampling import BeyondSampling
 from campaign.running.level import Level
 from campaign.scene import Scene
@@ -110,7 +110,7 @@ class CampaignDirectory:
     def conclude(
         self,
         ground: PreparedGround,
-        sampled: Sampled,
+        own: OwnRuns,
         beyond: BeyondSampling,
         draw_report: Callable[[], None] | None,
     ) -> ExitCode:
@@ -120,22 +120,22 @@ class CampaignDirectory:
         ----------
         ground
             Of the campaign.
-        sampled
+        own
             Its realizations.
         beyond
             What it knows of errors beyond sampling, and why not all was done.
         draw_report
             Called once the results are written; None for no report.
         """
-        tally = sampled.tally
-        code, verdict = _end(sampled, self.scene, beyond.stopped)
+        tally = own.tally
+        code, verdict = _end(own, self.scene, beyond.stopped)
         say(f"\n{self.scene.title}: {verdict}")
         if lost := self.obstacle():
             say(f"{lost}. Its records are kept: give the same command again where it is.")
             return ExitCode.RESUMABLE
         try:
             if tally.prefix > 0:
-                say(self._write_results(ground, sampled, verdict, beyond))
+                say(self._write_results(ground, own, verdict, beyond))
             self.level.store.pack()
             manifest.end(self.path, code, verdict)
         except OSError as error:
@@ -150,7 +150,7 @@ class CampaignDirectory:
             say("Give the same command again to continue.")
         return code
 
-    def _write_results(self, ground: PreparedGround, sampled: Sampled, verdict: str, beyond: BeyondSampling) -> str:
+    def _write_results(self, ground: PreparedGround, own: OwnRuns, verdict: str, beyond: BeyondSampling) -> str:
         """Write the dataset and return what it says, in that order: a terminal may fail, the results must be safe.
 
         What this needs is loaded here, once, and not by every rank at its start.
@@ -161,19 +161,19 @@ class CampaignDirectory:
         from campaign.results.results import Results
         from campaign.results.sensitivity import with_sensitivity
 
-        tally = sampled.tally
+        tally = own.tally
         about = attributes(self.scene, manifest.read(self.path), verdict)
         columns, baseline = self.level.store.columns(tally.prefix), self.level.store.read(BASELINE)
         known = (beyond.discretisation, beyond.release)
         built = dataset.build(ground, columns, baseline, tally.history(), about, *known)
-        built = built.assign({} if sampled.aim is None else of_pursuit(sampled.aim.pursuit, sampled.aim.models))
+        built = built.assign({} if own.aim is None else of_pursuit(own.aim.pursuit, own.aim.models))
         result = Results(with_sensitivity(Results(built, self.scene), beyond.inputs), self.scene)
         dataset.write(result.data, self.path / RESULTS)
         return summary(result)
 
 
-def _end(sampled: Sampled, scene: Scene, stopped: str) -> tuple[ExitCode, str]:
-    tally = sampled.tally
+def _end(own: OwnRuns, scene: Scene, stopped: str) -> tuple[ExitCode, str]:
+    tally = own.tally
     if tally.too_many_failed:
         failed, limit = tally.failed_in_prefix, 100 * tally.max_failed_fraction
         return (
@@ -181,12 +181,11 @@ def _end(sampled: Sampled, scene: Scene, stopped: str) -> tuple[ExitCode, str]:
             f"{failed:,} of {counted(tally.prefix, 'realization')} failed, more than the {limit:g} % of "
             "campaign.max_failed_fraction",
         )
-    if tally.size is None or stopped:
-        so_far = tally.history().verdict if tally.prefix else "no result yet"
-        return ExitCode.RESUMABLE, f"stopped early ({stopped}); {so_far}"
-    if sampled.aim is not None:
-        return ExitCode.DONE, accuracy_verdict(sampled.aim.pursuit, scene)
     verdict = tally.history().verdict if tally.prefix else "no result yet"
+    if tally.size is None or stopped:
+        return ExitCode.RESUMABLE, f"stopped early ({stopped}); {verdict}"
+    if own.aim is not None:
+        return ExitCode.DONE, accuracy_verdict(own.aim.pursuit, scene)
     if tally.history().converged_at is None:
         return ExitCode.DONE, f"stopped at the maximum of {counted(tally.maximum, 'realization')}; {verdict}"
     return ExitCode.DONE, verdict

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
-from campaign.running.accuracy import Sampled, to_accuracy
+from campaign.running.accuracy import OwnRuns, to_accuracy
 from campaign.running.beyond_sampling import BeyondSampling, beyond_sampling
 from campaign.running.campaign_directory import CampaignDirectory, opened
 from campaign.running.crew import Alone, Crew, Order
@@ -140,16 +140,16 @@ def conduct(
 
     means = Means(directory.path, prepare_unless_stopped, hand_out, "", directory.level.retry)
     if directory.scene.campaign.accuracy is None:
-        sampled = Sampled(tally, hand_out(directory.level, ground, tally))
+        own = OwnRuns(tally, hand_out(directory.level, ground, tally))
     else:
-        sampled = to_accuracy(directory.scene, means)
-    tally, means = sampled.tally, means.after(sampled.stopped)
-    beyond = BeyondSampling(sampled.stopped)
+        own = to_accuracy(directory.scene, means)
+    tally, means = own.tally, means.after(own.stopped)
+    beyond = BeyondSampling(own.stopped)
     if tally.size is not None:
-        beyond = beyond_sampling(directory.scene, tally, means, sampled.aim and sampled.aim.pairs)
+        beyond = beyond_sampling(directory.scene, tally, means, own.aim and own.aim.pairs)
     means = means.after(beyond.stopped)
     draw = None if write_report is None else partial(draw_report, tally, means, stop, write_report)
-    return directory.conclude(ground, sampled, beyond, draw)
+    return directory.conclude(ground, own, beyond, draw)
 
 
 def _obstacle(stop: StopRequest, end: float, lost: Callable[[], str]) -> Callable[[float], str]:

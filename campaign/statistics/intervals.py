@@ -60,6 +60,11 @@ def normal_quantile(confidence: float) -> float:
     return float(special.ndtri((1 + confidence) / 2))
 
 
+def student_quantile(confidence: float, degrees: float) -> float:
+    """Half-width of the two-sided interval of a variable with Student's distribution of so many degrees of freedom."""
+    return float(special.stdtrit(degrees, (1 + confidence) / 2))
+
+
 def mean_interval(values: Sample, confidence: float) -> Interval:
     """Mean with Student's t interval, mean +- t_{n-1} s / sqrt(n).
 
@@ -78,8 +83,7 @@ def mean_interval(values: Sample, confidence: float) -> Interval:
     mean = float(np.mean(values)) if n else math.nan
     if n < 2:
         return unknown(mean, n)
-    t = float(special.stdtrit(n - 1, (1 + confidence) / 2))
-    half_width = t * float(np.std(values, ddof=1)) / math.sqrt(n)
+    half_width = student_quantile(confidence, n - 1) * float(np.std(values, ddof=1)) / math.sqrt(n)
     return Interval(mean, mean - half_width, mean + half_width, n)
 
 

@@ -8,11 +8,13 @@ import time
 from pathlib import Path
 
 import numpy as np
+import pytest
 import xarray as xr
 
 from campaign.storage.lock import DirectoryLock
 
 MPIRUN = Path(sys.prefix) / "bin" / "mpirun"
+NEEDS_MPIRUN = pytest.mark.skipif(not MPIRUN.exists(), reason="needs the mpich extra")
 STAND_IN = Path(__file__).parent / "stand_in.py"
 
 

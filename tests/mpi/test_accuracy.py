@@ -3,7 +3,9 @@
 import shutil
 
 import pytest
-from stand_in_campaign import assert_same, campaign, dataset_of
+from stand_in_campaign import NEEDS_MPIRUN, assert_same, campaign, dataset_of
+
+pytestmark = NEEDS_MPIRUN
 
 AIM = ("campaign.accuracy=20 %",)
 

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from stand_in_campaign import (
     MPIRUN,
+    NEEDS_MPIRUN,
     assert_same,
     campaign,
     dataset,
@@ -27,12 +28,7 @@ from stand_in_campaign import (
 from campaign.exit_codes import ExitCode
 from campaign.running.standing import conclusion, status
 
-pytestmark = pytest.mark.skipif(not MPIRUN.exists(), reason="needs the mpich extra")
-
-
-@pytest.fixture(scope="module")
-def alone(tmp_path_factory):
-    return dataset_of(tmp_path_factory.mktemp("alone") / "out", ranks=1)
+pytestmark = NEEDS_MPIRUN
 
 
 def test_a_sick_rank_takes_no_more_work_and_leaves_no_trace(alone, tmp_path):

@@ -13,7 +13,7 @@ import time
 import numpy as np
 import pytest
 from stand_in_campaign import (
-    MPIRUN,
+    NEEDS_MPIRUN,
     STAND_IN,
     assert_same,
     campaign,
@@ -29,12 +29,7 @@ from stand_in_campaign import (
 from campaign.exit_codes import ExitCode
 from campaign.running.standing import conclusion, status
 
-pytestmark = pytest.mark.skipif(not MPIRUN.exists(), reason="needs the mpich extra")
-
-
-@pytest.fixture(scope="module")
-def alone(tmp_path_factory):
-    return dataset_of(tmp_path_factory.mktemp("alone") / "out", ranks=1)
+pytestmark = NEEDS_MPIRUN
 
 
 @pytest.mark.parametrize("ranks", [2, 3])

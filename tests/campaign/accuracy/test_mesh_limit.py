@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from nature import CELL, HALF, LADDERS, MEAN, OWN, QUARTER, Nature
 
-from campaign.accuracy.mesh_limit import Runs, mesh_limit, sampled
+from campaign.accuracy.mesh_limit import Runs, limit_means, sampled
 from campaign.statistics.intervals import mean_interval
 
 FINEST = LADDERS[-1]
@@ -18,13 +18,13 @@ def models_of(nature, counts=COUNTS):
 
 def test_by_itself_the_finest_mesh_gives_the_plain_mean():
     models = models_of(Nature(1))
-    found = mesh_limit(models, (0,), 0.95)
+    found = limit_means(models, (0,)).at(0.95)
     assert found.counted == pytest.approx(mean_interval(models[0].runout, 0.95))
     assert found.change == pytest.approx(mean_interval(models[0].runout - models[1].runout[:20], 0.95))
 
 
 def test_the_total_interval_reaches_as_far_as_the_change_and_its_error():
-    found = mesh_limit(models_of(Nature(1)), WHOLE, 0.95)
+    found = limit_means(models_of(Nature(1)), WHOLE).at(0.95)
     reach = abs(found.change.estimate)
     assert found.total.lower < found.counted.estimate - reach
     assert found.total.upper > found.counted.estimate + reach
@@ -34,7 +34,7 @@ def test_the_total_interval_reaches_as_far_as_the_change_and_its_error():
 
 
 def test_cheaper_models_narrow_the_interval_without_moving_it_away():
-    alone, together = (mesh_limit(models_of(Nature(2)), chain, 0.95) for chain in ((0,), WHOLE))
+    alone, together = (limit_means(models_of(Nature(2)), chain).at(0.95) for chain in ((0,), WHOLE))
     assert together.counted.half_width < 0.5 * alone.counted.half_width
     assert alone.counted.lower < together.counted.estimate < alone.counted.upper
 
@@ -45,7 +45,7 @@ def test_intervals_hold_the_mean_on_the_mesh_and_in_the_limit(order, chance):
     on_mesh = in_limit = 0
     for seed in range(100):
         nature = Nature(seed, order=order, chance=chance)
-        found = mesh_limit(models_of(nature), WHOLE, 0.95)
+        found = limit_means(models_of(nature), WHOLE).at(0.95)
         on_mesh += found.counted.lower <= nature.mean(QUARTER) <= found.counted.upper
         in_limit += found.total.lower <= MEAN <= found.total.upper
     assert 0.88 <= on_mesh / 100
@@ -55,7 +55,7 @@ def test_intervals_hold_the_mean_on_the_mesh_and_in_the_limit(order, chance):
 def test_a_mean_of_slides_leaves_out_what_does_not_slide():
     """Of what slides, not of all: with a probability of 60 % the mean over all would be 6 m."""
     nature = Nature(3, chance=0.6)
-    found = mesh_limit(models_of(nature, (200, 300, 400, 500, 500)), WHOLE, 0.95)
+    found = limit_means(models_of(nature, (200, 300, 400, 500, 500)), WHOLE).at(0.95)
     assert found.counted.estimate == pytest.approx(nature.mean(QUARTER), abs=0.3)
 
 
@@ -69,7 +69,7 @@ def test_what_failed_on_one_mesh_is_left_out_of_all():
 
 def test_without_a_slide_there_is_no_limit():
     still = [Runs(np.zeros(n), np.zeros(n), np.zeros((n, 1))) for n in (10, 30)]
-    assert mesh_limit(sampled(still), (0, 1), 0.95) is None
+    assert limit_means(sampled(still), (0, 1)) is None
 
 
 def test_the_cells_of_a_ladder_halve():
@@ -82,6 +82,6 @@ def test_at_the_same_cost_plain_runs_know_the_mean_on_the_mesh_far_less_well():
     counts = (8, 40, 150, 300, 600)
     cost = sum(n * model.cost for n, model in zip(counts, FINEST, strict=True))
     nature = Nature(6)
-    together = mesh_limit(models_of(nature, counts), WHOLE, 0.95).counted.half_width
+    together = limit_means(models_of(nature, counts), WHOLE).at(0.95).counted.half_width
     plain = 1.96 * nature.runout[QUARTER].std() / np.sqrt(cost / QUARTER.cost)
     assert together < np.sqrt(1 / 5) * plain
