@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from solver import observables
+from solver.balance import unbalanced_share
 from solver.grid import Grid
-from solver.in_situ import unbalanced_share
 from solver.model import Model
 from solver.particles import Particles
 from solver.rest import RestBy
@@ -33,7 +33,7 @@ class Moment(NamedTuple):
     front_position: float  # m, x of the front that the criteria choose; NaN while nothing slides
     max_displacement: float  # m
     kinetic_energy: float  # J/m, of the motion resolved by the grid
-    unbalanced_force: float  # over the weight, see ``in_situ.unbalanced_share``
+    unbalanced_force: float  # over the weight, see ``balance.unbalanced_share``
 
 
 def moment(particles: Particles, reference: Particles, grid: Grid, model: Model, gravity: float) -> Moment:

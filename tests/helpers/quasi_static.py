@@ -10,11 +10,12 @@ import numpy as np
 
 from solver import observables
 from solver._jit import kernel
+from solver.balance import unbalanced_share
 from solver.constants import STANDARD_GRAVITY
 from solver.deformation import deform
 from solver.filling import ground_of
 from solver.grid import PADDING, SMALLEST_MASS
-from solver.in_situ import LOCAL_DAMPING, in_situ_state, unbalanced_share
+from solver.in_situ import LOCAL_DAMPING, in_situ_state
 from solver.laws.registry import Constants, make_law
 from solver.materials import Material
 from solver.method import Method

@@ -2,17 +2,21 @@
 
 import numpy as np
 import pytest
+from parts_of_a_step import begin
 from small_slope import small_model
 
 from solver import observables
+from solver.balance import felt_share, unbalanced_share
 from solver.constants import STANDARD_GRAVITY
 from solver.filling import ground_of
-from solver.in_situ import LOCAL_DAMPING, NotSettledError, in_situ_state, lay_geostatic_stress, unbalanced_share
+from solver.in_situ import LOCAL_DAMPING, UNBALANCED, NotSettledError, Stall, in_situ_state, lay_geostatic_stress
+from solver.particles import copy_particles
 from solver.scheme import STRESS_UPDATES, Scheme
 from solver.step import advance, allocate_workspace
 from solver.surface import Surface
 from solver.timestep import stable_step
 
+BUMP = Surface(np.array([0.0, 4.0, 6.0, 8.0, 12.0]), np.array([4.1, 4.1, 4.28, 4.1, 4.1]))
 LEVEL = Surface(np.array([0.0, 5.0]), np.array([4.0, 4.0]))
 
 
@@ -80,9 +84,53 @@ def test_laid_stress_is_zero_at_the_surface_and_never_tension():
     np.testing.assert_allclose(ground.stress_yy, -2000.0 * STANDARD_GRAVITY * depth, atol=1e-6)
 
 
-def test_ground_too_soft_to_carry_itself_is_refused():
+def bumpy_model():
+    """Return level ground with a bump of two particles, which three nodes share that carry nothing else."""
+    return small_model()._replace(surface=BUMP, cell_size=1.0)
+
+
+def test_ground_whose_nodal_forces_cancel_at_its_particles_rests_by_the_force_that_they_feel():
+    """``sum_i S_ip f_i / m_i = 0`` of forces at three nodes that two particles share: they never go."""
+    model = bumpy_model()
+    start = in_situ_state(model)
+    assert observables.kinetic_energy(start) == 0.0
+    grid = model.allocate_grid()
+    tiles = begin(start, grid, allocate_workspace(start.x.size), model.scheme)
+    assert felt_share(tiles, grid, STANDARD_GRAVITY) < 1.01 * UNBALANCED
+    assert unbalanced_share(grid, STANDARD_GRAVITY) > 10.0 * UNBALANCED
+    is_heavy = grid.mass > 0.1 * grid.mass.max()
+    others = grid._replace(free_x=grid.free_x * is_heavy, free_y=grid.free_y * is_heavy)
+    assert unbalanced_share(others, STANDARD_GRAVITY) < 2.0 * UNBALANCED
+
+
+def test_ground_that_rests_by_the_force_that_particles_feel_stays_where_it_is_when_damping_ends():
+    """Elastic ground goes on under its own weight for 2 s, and nothing of it comes near to counting as sliding."""
+    model = bumpy_model()
+    start = in_situ_state(model)
+    particles, grid = copy_particles(start), model.allocate_grid()
+    dt = stable_step(model.courant, model.cell_size, model.wave_speed, 0.0)
+    work = allocate_workspace(start.x.size)
+    advance(particles, grid, work, model.laws, model.scheme, STANDARD_GRAVITY, 0.0, dt, int(2.0 / dt))
+    assert observables.displacement(particles, start).max() < 0.01 * model.criteria.displaced
+
+
+def test_a_force_that_falls_slowly_has_not_stalled_and_one_that_only_swings_has():
+    slow, swinging = Stall(patience=10), Stall(patience=10)
+    assert not any(slow.has_come(0.97**check) for check in range(300))  # a fifth in 8 checks
+    assert [swinging.has_come(force) for force in [3.0, 2.0, 1.0, *[1.0, 0.9] * 5]] == [False] * 12 + [True]
+
+
+@pytest.mark.parametrize(
+    ("bulk_modulus", "complaint"),
+    [
+        (2e3, r"under its own weight: it fell apart within \d+ elastic steps; check young_modulus"),
+        (2e4, r"under its own weight in \d{5} elastic steps .* it still moves at x = .* young_modulus"),
+    ],
+)
+def test_ground_too_soft_to_carry_itself_is_refused(bulk_modulus, complaint):
+    """The softer falls through its base at once, the other folds up; either is told within 30,000 steps."""
     soft = small_model()
-    law = soft.materials[0].law._replace(bulk_modulus=2e3, shear_modulus=1e3)
+    law = soft.materials[0].law._replace(bulk_modulus=bulk_modulus, shear_modulus=0.5 * bulk_modulus)
     soft = soft._replace(materials=(soft.materials[0]._replace(law=law),))
-    with pytest.raises(NotSettledError, match="did not come to rest under its own weight"):
+    with pytest.raises(NotSettledError, match=complaint):
         in_situ_state(soft)
