@@ -142,5 +142,5 @@ def in_situ_state(model: Model, from_nothing: bool = False) -> Particles:
     raise NotSettledError(
         f"The ground did not come to rest under its own weight in {steps} elastic steps (unbalanced force "
         f"{unbalanced:.1e} of the weight, {UNBALANCED:.0e} wanted): it still moves at x = {x:.4g} m, y = {y:.4g} m; "
-        "smooth the surface there, or change young_modulus, unit_weight or the size of the cells."
+        "check young_modulus and unit_weight, smooth the surface there, or change the size of the cells."
     )

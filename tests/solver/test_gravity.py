@@ -5,13 +5,17 @@ import pytest
 from parts_of_a_step import begin
 from small_slope import small_model
 
-from solver import observables
+from solver import in_situ, observables
 from solver.balance import felt_share, unbalanced_share
 from solver.constants import STANDARD_GRAVITY
 from solver.filling import ground_of
 from solver.in_situ import LOCAL_DAMPING, UNBALANCED, NotSettledError, Stall, in_situ_state, lay_geostatic_stress
+from solver.laws.mohr_coulomb import mohr_coulomb
+from solver.laws.registry import Constants
+from solver.materials import Material
 from solver.particles import copy_particles
 from solver.scheme import STRESS_UPDATES, Scheme
+from solver.softening import NO_SOFTENING
 from solver.step import advance, allocate_workspace
 from solver.surface import Surface
 from solver.timestep import stable_step
@@ -86,11 +90,15 @@ def test_laid_stress_is_zero_at_the_surface_and_never_tension():
 
 def bumpy_model():
     """Return level ground with a bump of two particles, which three nodes share that carry nothing else."""
-    return small_model()._replace(surface=BUMP, cell_size=1.0)
+    law = mohr_coulomb(Constants(30e6, 0.45, 0.0, NO_SOFTENING))
+    return small_model()._replace(surface=BUMP, cell_size=1.0, materials=(Material(2000.0, 0.45, law),))
 
 
 def test_ground_whose_nodal_forces_cancel_at_its_particles_rests_by_the_force_that_they_feel():
-    """``sum_i S_ip f_i / m_i = 0`` of forces at three nodes that two particles share: they never go."""
+    """``sum_i S_ip f_i / m_i = 0`` of forces at three nodes that two particles share: they never go.
+
+    Damping that does not fade holds the particles where they feel 2.1e-4 of the weight, for 30,000 steps at least.
+    """
     model = bumpy_model()
     start = in_situ_state(model)
     assert observables.kinetic_energy(start) == 0.0
@@ -120,17 +128,18 @@ def test_a_force_that_falls_slowly_has_not_stalled_and_one_that_only_swings_has(
     assert [swinging.has_come(force) for force in [3.0, 2.0, 1.0, *[1.0, 0.9] * 5]] == [False] * 12 + [True]
 
 
-@pytest.mark.parametrize(
-    ("bulk_modulus", "complaint"),
-    [
-        (2e3, r"under its own weight: it fell apart within \d+ elastic steps; check young_modulus"),
-        (2e4, r"under its own weight in \d{5} elastic steps .* it still moves at x = .* young_modulus"),
-    ],
-)
-def test_ground_too_soft_to_carry_itself_is_refused(bulk_modulus, complaint):
-    """The softer falls through its base at once, the other folds up; either is told within 30,000 steps."""
+def test_ground_too_soft_to_carry_itself_is_refused():
     soft = small_model()
-    law = soft.materials[0].law._replace(bulk_modulus=bulk_modulus, shear_modulus=0.5 * bulk_modulus)
+    law = soft.materials[0].law._replace(bulk_modulus=2e3, shear_modulus=1e3)
     soft = soft._replace(materials=(soft.materials[0]._replace(law=law),))
+    complaint = r"under its own weight: it fell apart within \d+ elastic steps; check young_modulus"
     with pytest.raises(NotSettledError, match=complaint):
         in_situ_state(soft)
+
+
+def test_ground_that_never_rests_is_refused_once_the_damping_has_faded(monkeypatch):
+    """No force is below zero: after 10,000 steps without a fall the damping fades in 10,600, and then it is enough."""
+    monkeypatch.setattr(in_situ, "UNBALANCED", 0.0)
+    complaint = r"in 2\d{4} elastic steps .* 0e\+00 wanted\): it still moves at x = .* m, y = .* m; check young_modulus"
+    with pytest.raises(NotSettledError, match=complaint):
+        in_situ_state(bumpy_model())
