@@ -18,8 +18,8 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_
 DEFAULT = ["run", "ma2023"]
 """What is done without arguments."""
 
-SHARED = "run"
-"""The command that several processes carry out together."""
+SHARED = ("run", "tradeoff")
+"""The commands that several processes carry out together."""
 
 DESCRIPTION = """\
 How far will this slope run, and how sure are we? Without a command, "campaign" computes the built-in scene ma2023
@@ -48,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _carry_out(options: argparse.Namespace) -> ExitCode:
     try:
-        if options.command != SHARED:
+        if options.command not in SHARED:
             refuse_several(options.command, os.environ)
         code: ExitCode = options.carry_out(options)
     except CampaignError as refusal:

@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 from campaign.accuracy.pursuit import Ladder, Model
 from campaign.errors import RefusalError, SceneError
-from campaign.scene import Scene, load_scene
+from campaign.scene import Scene
 from campaign.scene.cost import realization_seconds
+from campaign.scene.variant import variant_of
 
 OWN = "own"
 """The name of the scene as it is."""
@@ -79,9 +80,6 @@ def _with(scene: Scene, name: str) -> Scene | None:
         f"soil.young_modulus={stiffness * scene.soil.young_modulus!r} Pa",
     ]
     try:
-        changed = load_scene(scene, changes)
+        return variant_of(scene, changes)
     except SceneError:
         return None
-    longer = max(1.0, realization_seconds(changed) / realization_seconds(scene))
-    timeout = {"realization_timeout": longer * scene.campaign.realization_timeout}
-    return changed.model_copy(update={"campaign": scene.campaign.model_copy(update=timeout)})

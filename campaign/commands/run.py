@@ -1,17 +1,16 @@
 """`campaign run`: run a campaign, or continue it."""
 
 import argparse
-import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from campaign.commands.scene_options import add_scene, read_scene, scene_directory
+from campaign.commands.on_ranks import prepare, scene_reader
+from campaign.commands.scene_options import add_scene, scene_directory
 from campaign.exit_codes import ExitCode
-from campaign.running.launcher import SIZES
 
 if TYPE_CHECKING:
     from campaign.scene import Scene
-    from campaign.simulation.ground import Ground
 
 HELP = "run a campaign, or continue it"
 
@@ -46,25 +45,10 @@ def carry_out(options: argparse.Namespace) -> ExitCode:
     CampaignError
         When the scene is refused and no launcher waits for this process.
     """
-    if was_launched():  # other ranks wait for this one in MPI, and only rank 0 may read the scene
-        return _run_on_ranks(options, None)
-    return _run_on_ranks(options, _scene_that_can_run(options))
+    return _run_on_ranks(options, scene_reader(options))
 
 
-def was_launched() -> bool:
-    """Whether this process is one of several, or was started by mpirun or srun."""
-    return any(name in os.environ for name in SIZES)
-
-
-def _scene_that_can_run(options: argparse.Namespace) -> "Scene":
-    from campaign.commands.affordable import refuse_unaffordable
-
-    scene = read_scene(options)
-    refuse_unaffordable(scene)
-    return scene
-
-
-def _run_on_ranks(options: argparse.Namespace, scene: "Scene | None") -> ExitCode:
+def _run_on_ranks(options: argparse.Namespace, read: "Callable[[], Scene]") -> ExitCode:
     from campaign.running.guard import ending_all_ranks
     from campaign.running.stop_request import listening
 
@@ -74,20 +58,13 @@ def _run_on_ranks(options: argparse.Namespace, scene: "Scene | None") -> ExitCod
         from campaign.running.mpi import run_on_ranks
 
         return run_on_ranks(
-            lambda: scene or _scene_that_can_run(options),
+            read,
             options.out or scene_directory(options),
-            _prepare,
+            prepare,
             _write_report,
             Earlier(options.allow_drift, frozenset(Status[name] for name in options.retry)),
             stop,
         )
-
-
-def _prepare(scene: "Scene", directory: Path) -> "Ground":
-    """Load the solver when it is needed, and not before a mistake in the scene is told."""
-    from campaign.simulation.ground import prepare_to_run
-
-    return prepare_to_run(scene, directory)
 
 
 def _write_report(directory: Path, simulate: bool) -> Path:

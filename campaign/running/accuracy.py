@@ -3,7 +3,6 @@
 Which runs that takes depends on the results alone, neither on ranks nor on interruptions.
 """
 
-import math
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -18,21 +17,17 @@ from campaign.accuracy.settings import HALF, OWN, Models, models_of
 from campaign.accuracy.wording import plan, setting
 from campaign.errors import RefusalError
 from campaign.fields.properties import random_properties
-from campaign.record import LOWER_BOUND, SLID, RealizationSummary, Status
+from campaign.record import LOWER_BOUND, SLID
 from campaign.running.level import Level
-from campaign.running.side_run import Means, SideRun, make
+from campaign.running.side_run import Means, SideRun, Stopped, make
 from campaign.scene import Scene
 from campaign.scene.constraints import tolerance
-from campaign.seeds import BASELINE
-from campaign.statistics.repetition import without_rule
+from campaign.statistics.repetition import UNASKED, without_rule
 from campaign.statistics.ridge import Matrix
 from campaign.statistics.tally import Tally
 from campaign.storage.layout import HALF_CELL, MODELS
 from campaign.storage.record_store import RecordStore
 from campaign.terminal import counted, say
-
-UNASKED = RealizationSummary(BASELINE, Status.no_slide, math.nan, math.nan, math.nan)
-"""Stands for the deterministic run of models of which nobody asks for it."""
 
 
 class OwnRuns(NamedTuple):
@@ -71,10 +66,6 @@ class Aim(NamedTuple):
         return dict(zip(names, self.pursuit.counts, strict=True))
 
 
-class _Stopped(Exception):  # noqa: N818  -- not an error: somebody asked for it
-    """Nothing more may be begun."""
-
-
 def to_accuracy(scene: Scene, means: Means) -> OwnRuns:
     """Run the models of a scene until its accuracy is reached.
 
@@ -99,7 +90,7 @@ def to_accuracy(scene: Scene, means: Means) -> OwnRuns:
 
     try:
         pursuit = pursue(models.ladders, _wanted(scene), compute)
-    except _Stopped as stopped:
+    except Stopped as stopped:
         return OwnRuns(account(scene.campaign.realizations), str(stopped))
     aim = Aim(pursuit, models)
     return OwnRuns(account(aim.counts[OWN]), "", aim)
@@ -123,7 +114,7 @@ def _runs(model: Model, scene: Scene, count: int, means: Means) -> Runs:
     made = make(run, means)
     if made.tally is None:
         if made.stopped:
-            raise _Stopped(made.stopped)
+            raise Stopped(made.stopped)
         raise RefusalError(f"The accuracy cannot be reached without realizations {setting(scene)}.")
     return _as_runs(made.tally, home, scene)
 

@@ -99,9 +99,9 @@ class CampaignDirectory:
         """Give the directory free."""
         self._lock.release()
 
-    def leave(self, why: str) -> ExitCode:
-        """Say and write down why the campaign ends before its first realization, and return its exit code."""
-        verdict = f"stopped early ({why}) before its first realization of this start"
+    def leave(self, why: str, when: str = " before its first realization of this start") -> ExitCode:
+        """Say and write down why the campaign ends without results, and return its exit code."""
+        verdict = f"stopped early ({why}){when}"
         say(f"{self.scene.title}: {verdict}. Give the same command again to continue.")
         with suppress(OSError):
             manifest.end(self.path, ExitCode.RESUMABLE, verdict)

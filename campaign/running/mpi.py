@@ -18,10 +18,11 @@ from mpi4py import MPI
 from campaign.errors import CampaignError
 from campaign.exit_codes import ExitCode
 from campaign.running import launcher
-from campaign.running.campaign_directory import ALL_STANDS, Earlier, opened
-from campaign.running.crew import Order, work, worker_of
+from campaign.running.campaign_directory import ALL_STANDS, CampaignDirectory, Earlier, opened
+from campaign.running.crew import Crew, Order, work, worker_of
 from campaign.running.dispatcher import Dispatcher
 from campaign.running.guard import ending_all_ranks
+from campaign.running.means import Lead
 from campaign.running.reporting import WriteReport
 from campaign.running.runner import conduct
 from campaign.running.stop_request import BrokenOff, StopRequest, listening
@@ -64,13 +65,40 @@ def run_on_ranks(
     stop
         Where somebody listens to signals already.
     """
+
+    def lead(directory: CampaignDirectory, crew: Crew, stop: StopRequest) -> ExitCode:
+        return conduct(directory, prepare, crew, stop, write_report)
+
+    return on_ranks(read_scene, lambda scene: out or Path(f"campaign-{scene.name}"), lead, earlier, stop)
+
+
+def on_ranks(
+    read_scene: Callable[[], Scene],
+    place: Callable[[Scene], Path],
+    lead: Lead,
+    earlier: Earlier = ALL_STANDS,
+    stop: StopRequest | None = None,
+) -> ExitCode:
+    """Have all ranks of this MPI job compute what rank 0 wants in a results directory.
+
+    Parameters
+    ----------
+    read_scene
+        Called on rank 0.
+    place
+        Returns the results directory of the scene.
+    lead
+        Called on rank 0 with that directory, opened, the crew of all ranks and what listens to signals.
+    earlier, stop
+        As of `run_on_ranks`.
+    """
     with ending_all_ranks() as comm, nullcontext(stop) if stop else listening() as stop:
         if sentence := launcher.mismatch(comm.size, os.environ):
             complain(sentence)
             return ExitCode.REFUSED
         if comm.rank > 0:
             return _follow(comm, stop)
-        code = _lead(Ranks(comm, stop), stop, read_scene, out, prepare, write_report, earlier)
+        code = _lead(Ranks(comm, stop), stop, read_scene, place, lead, earlier)
         _share(comm, None)
         return _agree(comm, code)
 
@@ -79,9 +107,8 @@ def _lead(
     ranks: "Ranks",
     stop: StopRequest,
     read_scene: Callable[[], Scene],
-    out: Path | None,
-    prepare: Prepare,
-    write_report: WriteReport | None,
+    place: Callable[[Scene], Path],
+    lead: Lead,
     earlier: Earlier,
 ) -> ExitCode:
     try:
@@ -89,9 +116,8 @@ def _lead(
             with stop.breaking_off():
                 stop.obey()
                 scene = read_scene()
-                directory = opened(scene, out or Path(f"campaign-{scene.name}"), ranks.size, earlier)
-                begun = stack.enter_context(directory)
-            return conduct(begun, prepare, ranks, stop, write_report)
+                begun = stack.enter_context(opened(scene, place(scene), ranks.size, earlier))
+            return lead(begun, ranks, stop)
     except BrokenOff:
         say("Asked to stop before anything was begun. Give the same command again to continue.")
         return ExitCode.RESUMABLE

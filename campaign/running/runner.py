@@ -1,8 +1,6 @@
 """A campaign from its first missing realization to its results, whoever computes."""
 
 import threading
-import time
-from collections.abc import Callable
 from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
@@ -13,20 +11,13 @@ from campaign.exit_codes import ExitCode
 from campaign.running.accuracy import OwnRuns, to_accuracy
 from campaign.running.beyond_sampling import BeyondSampling, beyond_sampling
 from campaign.running.campaign_directory import CampaignDirectory, opened
-from campaign.running.crew import Alone, Crew, Order
-from campaign.running.dispatcher import Dispatcher
-from campaign.running.interrupt import LAST_CALL
-from campaign.running.level import Level
+from campaign.running.crew import Alone, Crew
 from campaign.running.machine_fault import MachineFaultError, machine_faults
-from campaign.running.progress import Progress, nothing_ahead
+from campaign.running.means import means_of
 from campaign.running.reporting import WriteReport, draw_report
-from campaign.running.side_run import Means
 from campaign.running.stop_request import BrokenOff, StopRequest, listening
-from campaign.running.walltime import job_end
-from campaign.running.workload import seconds_beyond_sampling
 from campaign.scene import Scene, load_scene
-from campaign.simulation.contract import Prepare, PreparedGround
-from campaign.statistics.tally import Tally
+from campaign.simulation.contract import Prepare
 from campaign.storage.layout import RESULTS
 
 if TYPE_CHECKING:
@@ -106,16 +97,9 @@ def conduct(
     CampaignError
         If the scene cannot be run.
     """
-
-    def prepare_unless_stopped(scene: Scene, path: Path) -> PreparedGround:
-        with stop.breaking_off(), machine_faults():
-            stop.obey()
-            return prepare(scene, path)
-
-    end = job_end()
-    obstacle = _obstacle(stop, end, directory.obstacle)
+    means = means_of(directory, prepare, crew, stop)
     try:
-        ground = prepare_unless_stopped(directory.scene, directory.path)
+        ground = means.prepare(directory.scene, directory.path)
         with machine_faults():
             directory.level.fit(ground)
     except BrokenOff:
@@ -124,23 +108,8 @@ def conduct(
         return directory.leave(f"the ground could not be prepared: {fault}")
     tally = directory.level.tally()
     directory.announce(crew.size, tally)
-
-    is_rehearsed = False
-
-    def hand_out(level: Level, ground: PreparedGround, tally: Tally, breaks_off: bool = False) -> str:
-        nonlocal is_rehearsed
-        wanted, timeout, is_main = level.scene, level.scene.campaign.realization_timeout, level is directory.level
-        rehearses = tally.size is None and not is_rehearsed
-        is_rehearsed = is_rehearsed or rehearses
-        order = Order(ground, level.directory, wanted.digest(), timeout, end, breaks_off, rehearses)
-        dispatcher = Dispatcher(tally, obstacle, level.tidier(tally))
-        progress = Progress(tally, partial(seconds_beyond_sampling, wanted, crew.size) if is_main else nothing_ahead)
-        crew.compute(order, dispatcher, lambda: dispatcher.observe(progress.tick))
-        return dispatcher.stopped
-
-    means = Means(directory.path, prepare_unless_stopped, hand_out, "", directory.level.retry)
     if directory.scene.campaign.accuracy is None:
-        own = OwnRuns(tally, hand_out(directory.level, ground, tally))
+        own = OwnRuns(tally, means.hand_out(directory.level, ground, tally))
     else:
         own = to_accuracy(directory.scene, means)
     tally, means = own.tally, means.after(own.stopped)
@@ -150,12 +119,3 @@ def conduct(
     means = means.after(beyond.stopped)
     draw = None if write_report is None else partial(draw_report, tally, means, stop, write_report)
     return directory.conclude(ground, own, beyond, draw)
-
-
-def _obstacle(stop: StopRequest, end: float, lost: Callable[[], str]) -> Callable[[float], str]:
-    def obstacle(longest: float) -> str:
-        if stop.drain:
-            return "asked to stop"
-        return lost() or ("the job's time is nearly over" if time.time() + longest + LAST_CALL > end else "")
-
-    return obstacle

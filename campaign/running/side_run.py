@@ -78,10 +78,25 @@ class SideRun(NamedTuple):
 
 
 class Made(NamedTuple):
-    """The account of the runs, None if it is not whole, and why it may become so later, "" if it will not."""
+    """What became of the runs.
+
+    Attributes
+    ----------
+    tally
+        Their account, None if it is not whole.
+    stopped
+        Why it may become whole later, "" if it will not.
+    refusal
+        Why it cannot become so.
+    """
 
     tally: Tally | None
     stopped: str
+    refusal: str = ""
+
+
+class Stopped(Exception):  # noqa: N818  -- not an error: somebody asked for it
+    """Nothing more may be begun."""
 
 
 def make(run: SideRun, means: Means) -> Made:
@@ -95,7 +110,7 @@ def make(run: SideRun, means: Means) -> Made:
             return _compute(level, run, means)
     except RefusalError as refusal:
         say(f"{run.loss} {refusal}")
-        return Made(None, "")
+        return Made(None, "", str(refusal))
     except BrokenOff:
         return Made(None, "asked to stop")
     except MachineFaultError as fault:

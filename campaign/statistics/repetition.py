@@ -1,9 +1,15 @@
 """Realizations of a campaign that are repeated in another setting, whatever comes of them."""
 
+import math
+
 import numpy as np
 
-from campaign.record import UNHINDERED, Front, RealizationSummary
+from campaign.record import UNHINDERED, Front, RealizationSummary, Status
 from campaign.scene import Scene
+from campaign.seeds import BASELINE
+
+UNASKED = RealizationSummary(BASELINE, Status.no_slide, math.nan, math.nan, math.nan)
+"""Stands for the deterministic run where nobody asks for it."""
 
 
 def without_rule(scene: Scene, realizations: int) -> Scene:

@@ -22,6 +22,9 @@ HALF_CELL = "half-cell"
 MODELS = "models"
 """Holds a directory for each other model of a scene, named by what it is, in the same layout."""
 
+VARIANTS = "variants"
+"""Holds a directory for each variant of a scene that a study has run, named by its changes, in the same layout."""
+
 OTHER_RELEASE = "other-release"
 """Holds the deterministic run with the other release protocol, in the same layout."""
 

@@ -2,7 +2,7 @@
 
 import csv
 import io
-from collections.abc import Sequence
+import math
 from pathlib import Path
 
 import numpy as np
@@ -11,107 +11,177 @@ import xarray as xr
 from campaign.errors import RefusalError
 from campaign.files import write_atomically
 from campaign.results import dataset
-from campaign.scene import Scene
-from campaign.seeds import BASELINE
-from campaign.terminal import counted, say
-from campaign.tradeoff.trials import Tradeoff, Trial, compare
+from campaign.statistics.wording import metres
+from campaign.terminal import duration, say
+from campaign.tradeoff.trials import Tradeoff, Trial
 
-COLUMNS = ("setting", "cpu_seconds", "rms_difference_m", "mean_difference_m", "without_runout", "remark")
+NUMBERS = {
+    "core_time": {"units": "s", "long_name": "core time of a realization; the estimate where none was run"},
+    "mean_shift": {
+        "units": "m",
+        "long_name": "shift of the mean run-out against the finest mesh, from realizations that slid in both",
+    },
+    "mean_shift_lower": {"units": "m", "long_name": "lower bound of mean_shift"},
+    "mean_shift_upper": {"units": "m", "long_name": "upper bound of mean_shift"},
+    "runout_std": {"units": "m", "long_name": "standard deviation of the final run-out between realizations"},
+    "campaign_core_time": {
+        "units": "s",
+        "long_name": "core time of a campaign whose sampling error is the attribute sampling_error",
+    },
+    "total_error": {
+        "units": "m",
+        "long_name": "total error of the mean run-out of that campaign against the finest mesh, at most",
+    },
+}
+"""What is told of a setting in numbers, and what it means."""
 
 NAME = "tradeoff"
 
 
-def write_tradeoff(scene: Scene, budget: float, directory: Path) -> Tradeoff:
-    """Compare the settings of a scene within a budget of CPU time (s) and write what was found to `directory`.
+def write_tradeoff(found: Tradeoff, directory: Path) -> None:
+    """Print what was found and write it to `directory`.
 
     Raises
     ------
     RefusalError
-        When the scene gives no run-out, or nothing can be written.
+        When nothing can be written.
     """
     try:
-        directory.mkdir(parents=True, exist_ok=True)
-        found = compare(scene, scene.campaign.realizations, budget, directory, say)
         write_atomically(directory / f"{NAME}.csv", as_csv(found).encode())
         dataset.write(as_dataset(found), directory / f"{NAME}.nc")
-        say(f"\n{table(found)}\n\n{found.advice}")
+        say(f"\n{table(found)}\n\n{found.advice}{_how(found)}")
         _draw(found, directory / f"{NAME}.png")
     except OSError as error:
         raise RefusalError(f"{directory} cannot be written ({error}); give another --out, or make room.") from error
-    return found
 
 
-def rows(found: Tradeoff) -> list[tuple[str, ...]]:
-    """Return the table, the cheapest setting first, as text under `COLUMNS`."""
-    return [_row(trial, found) for trial in sorted(found.trials, key=lambda trial: (not trial.was_run, trial.seconds))]
+def in_order(found: Tradeoff) -> list[Trial]:
+    """Return the settings, the cheapest campaign first, then those with nothing to compare."""
+    return [each.trial for each in sorted(found.judged, key=lambda each: each.sampling_cost(found.sampling))] + [
+        trial for trial in found.trials if not trial.is_sound
+    ]
 
 
 def table(found: Tradeoff) -> str:
     """Return the table for a terminal."""
-    titles = ("setting", "CPU s", "RMS m", "mean m", "no run-out", "")
-    lines = [titles, *rows(found)]
-    width, fields = max(len(line[0]) for line in lines), len(found.reference.runouts) - 1
-    about = f"{counted(fields, 'realization')} and the run with mean strengths in each setting"
+    titles = ("setting", "core s", "shift of the mean", "std m", "campaign", "error m", "")
+    lines = [titles, *(_line(trial, found) for trial in in_order(found))]
+    widths = [max(len(line[column]) for line in lines) for column in range(len(titles) - 1)]
+    about = (
+        f"{len(found.reference.runouts)} realizations in each setting; campaigns until sampling adds "
+        f"{found.sampling:.2f} m to the total error"
+    )
     told = [
-        f"{name:{width}} {cpu:>8} {rms:>8} {mean:>8} {failed:>11}  {remark}".rstrip()
-        for name, cpu, rms, mean, failed, remark in lines
+        "  ".join([name.ljust(widths[0]), *map(str.rjust, numbers, widths[1:]), remark]).rstrip()
+        for name, *numbers, remark in lines
     ]
     return "\n".join([about, *told])
+
+
+def _line(trial: Trial, found: Tradeoff) -> tuple[str, ...]:
+    judged = found.of(trial)
+    seconds = f"{trial.seconds:.2g}" if math.isfinite(trial.seconds) else ""
+    if judged is None:
+        return (trial.name, seconds, "", "", "", "", trial.remark)
+    cost = judged.sampling_cost(found.sampling)
+    shift = "0" if trial is found.reference else f"{judged.shift.estimate:+.2f} m ({metres(judged.shift)})"
+    return (
+        trial.name,
+        seconds,
+        shift,
+        f"{trial.std:.2f}",
+        duration(cost),
+        f"{judged.error(cost):.2f}",
+        _marks(trial, found),
+    )
+
+
+def _marks(trial: Trial, found: Tradeoff) -> str:
+    marks = [
+        "finest mesh" if trial is found.reference else "",
+        "recommended" if found.recommended and trial is found.recommended.trial else "",
+        "nothing cheaper is as near" if trial in [each.trial for each in found.front] else "",
+    ]
+    return ", ".join(filter(None, marks))
+
+
+def _how(found: Tradeoff) -> str:
+    """Say how the recommended setting is taken."""
+    chosen = found.recommended
+    if chosen is None or not chosen.trial.changes:
+        return ""
+    return "\nTake it with " + " ".join(f"--set '{change}'" for change in chosen.trial.changes)
 
 
 def as_csv(found: Tradeoff) -> str:
     """Return the table as comma-separated values."""
     text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([COLUMNS, *rows(found)])
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["setting", *(f"{name}_{about['units']}" for name, about in NUMBERS.items()), "remark"])
+    for trial in in_order(found):
+        numbers = [number if math.isfinite(number) else "" for number in _numbers(trial, found).values()]
+        writer.writerow([trial.name, *numbers, trial.remark or _marks(trial, found)])
     return text.getvalue()
 
 
 def as_dataset(found: Tradeoff) -> xr.Dataset:
-    """Return every final run-out by setting and realization, the deterministic run as realization -1."""
-    trials: Sequence[Trial] = found.trials
-    ids = np.arange(BASELINE, len(found.reference.runouts) + BASELINE)
-    runouts = np.stack([trial.runouts for trial in trials])
-    seconds = np.array([trial.seconds for trial in trials])
+    """Return every final run-out by setting and realization, and what follows from them."""
+    trials = list(found.trials)
+    numbers = {name: ("setting", _column(name, found), about) for name, about in NUMBERS.items()}
     runout_about = {
         "units": "m",
-        "long_name": "final run-out of the front that slide.front names; NaN where there is none",
+        "long_name": "final run-out of the front that slide.front names; NaN without a slide that nothing hindered",
     }
-    overrides = "\n".join(found.scene.overrides)
-    cpu_about = {"units": "s", "long_name": "median CPU time of a realization; the estimate where none was run"}
+    chosen = found.recommended
     return xr.Dataset(
         {
-            "final_runout": (("setting", "realization"), runouts, runout_about),
-            "cpu_time": ("setting", seconds, cpu_about),
-            "remark": ("setting", np.array([trial.reason for trial in trials], dtype=object)),
+            "final_runout": (("setting", "realization"), np.stack([trial.runouts for trial in trials]), runout_about),
+            **numbers,
+            "remark": (
+                "setting",
+                np.array([trial.remark for trial in trials], dtype=object),
+                {"long_name": "why there is nothing to compare"},
+            ),
         },
-        {"setting": np.array([trial.setting for trial in trials], dtype=object), "realization": ids},
         {
-            "reference": found.reference.setting,
+            "setting": (
+                "setting",
+                np.array([trial.name for trial in trials], dtype=object),
+                {"long_name": "changes of the scene"},
+            ),
+            "realization": (
+                "realization",
+                np.arange(len(found.reference.runouts)),
+                {"long_name": "number of the random field"},
+            ),
+        },
+        {
+            "Conventions": "CF-1.11",
+            "title": f"Speed against accuracy: {found.scene.title}",
+            "reference": found.reference.name,
+            "recommended": chosen.trial.name if chosen else "",
             "advice": found.advice,
+            "sampling_error": found.sampling,
+            "mesh_doubt": found.mesh_doubt,
+            "confidence": found.scene.campaign.confidence,
             "scene": found.scene.text,
-            "scene_overrides": overrides,
+            "scene_overrides": "\n".join(found.scene.overrides),
         },
     )
 
 
-def _row(trial: Trial, found: Tradeoff) -> tuple[str, ...]:
-    reference = found.reference
-    if not trial.was_run:
-        return (trial.setting, f"{trial.seconds:.3g}", "", "", "", trial.reason)
-    marks = [
-        "reference" if trial is reference else "",
-        "recommended" if trial is found.recommended else "",
-        "nothing cheaper is as near" if trial in found.front else "",
-        trial.reason,
-    ]
-    known = "" if trial.failures else f"{trial.rms(reference):.3f}"
-    mean = "" if trial.failures else f"{trial.bias(reference):+.3f}"
-    return (trial.setting, f"{trial.seconds:.3g}", known, mean, _failed(trial), ", ".join(filter(None, marks)))
+def _column(name: str, found: Tradeoff) -> list[float]:
+    return [_numbers(trial, found)[name] for trial in found.trials]
 
 
-def _failed(trial: Trial) -> str:
-    """Say how many runs gave no run-out, because they failed, stood or met a wall; that with mean strengths is one."""
-    return f"{trial.failures} of {counted(len(trial.runouts), 'run')}" if trial.failures else "0"
+def _numbers(trial: Trial, found: Tradeoff) -> dict[str, float]:
+    """Return what is told of a setting in numbers, NaN where there is nothing to compare."""
+    judged = found.of(trial)
+    if judged is None:
+        return dict.fromkeys(NUMBERS, math.nan) | {"core_time": trial.seconds}
+    cost = judged.sampling_cost(found.sampling)
+    told = trial.seconds, *judged.shift[:3], trial.std, cost, judged.error(cost)
+    return dict(zip(NUMBERS, told, strict=True))
 
 
 def _draw(found: Tradeoff, path: Path) -> None:

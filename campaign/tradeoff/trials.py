@@ -1,239 +1,259 @@
-"""`campaign tradeoff`: what a scene's numerical choices cost in time and in accuracy, against a finer mesh.
+"""What settings of a scene cost, and how far off a campaign with them is.
 
-Realization k is the same ground whatever the numerics, so that a few of them, and the run with mean strengths, compare
-settings without the scatter between realizations. The reference is the scene with half its cell where the budget
-allows, otherwise the scene itself.
+A campaign of n realizations costs n c and knows its mean to
+
+    e(n) = |b| + z s / sqrt(n),
+
+with c the core time of a realization, s the standard deviation between realizations and b how much the setting shifts
+the mean against the finest mesh, from realizations that both have run. No number of realizations removes b.
 """
 
-import time
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
-from campaign.errors import RefusalError, SamplerError
-from campaign.record import FINAL_RUNOUT, UNHINDERED, Status
-from campaign.scene import Scene, kept_scene
-from campaign.scene.cost import realization_seconds
+from campaign.accuracy.allocation import allocation
+from campaign.accuracy.nested import FEWEST, nested_mean
+from campaign.record import FAILED
+from campaign.running.study import Changes, Outcome, named
+from campaign.scene import Scene
+from campaign.scene.constraints import Tolerance, tolerance
 from campaign.seeds import BASELINE
-from campaign.simulation.contract import Interrupted
-from campaign.simulation.flags import without_debris
-from campaign.simulation.ground import Ground, prepare
-from campaign.statistics.intervals import Sample
-from campaign.terminal import duration
-from solver.timestep import largest_courant
+from campaign.statistics.intervals import Interval, Sample, mean_interval, normal_quantile
+from campaign.statistics.repetition import unhindered_runout
+from campaign.terminal import counted
 
-NEAR = 0.05
-"""Of the reference's run-out: a setting this near is good enough to be recommended."""
-
-OWN = "as the scene says"
-
-WITHOUT_RUNOUT = {Status.no_slide: "the slope stands", Status.timeout: "took too long"}
-"""Ends of a run that has no run-out to compare, where its record does not say why."""
-
-CHOICES: dict[str, Sequence[str | int | float]] = {
-    "numerics.basis": ("gimp", "linear", "bspline"),
-    "numerics.stress_update": ("musl", "usl", "usf"),
-    "numerics.locking": ("none", "cell-average"),
-    "numerics.courant": (0.3, 0.6, 0.9),
-    "numerics.particles_per_cell": (4, 9, 16),
-}
+NEAR = Tolerance(0.05, is_relative=True)
+"""Total error of the mean run-out that a setting is recommended for, where the scene asks for none."""
 
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """One setting: the scene with an override, and what became of it.
+    """One setting, and what became of its realizations.
 
     Parameters
     ----------
-    setting
-        The override, or `OWN`.
+    changes
+        What it changes in the scene.
     cell
         In m.
     runouts
-        Final run-out of the deterministic run and of realization 0, 1, ... in m, NaN where there is none.
+        Final run-out of realization 0, 1, ... in m, NaN of all that did not slide or had a wall in the way.
     seconds
-        Median CPU time of one of them in s; the estimate where none was run.
-    reason
-        Why runs have no run-out, or it was left out; "" if neither.
-    was_run
-        Whether it was tried at all.
+        core time of one of them in s; the estimate where none was run.
+    failures
+        Number of them that failed.
+    why_not
+        Why none was run, "" if they were.
     """
 
-    setting: str
+    changes: Changes
     cell: float
     runouts: Sample
     seconds: float
-    reason: str = ""
-    was_run: bool = True
+    failures: int = 0
+    why_not: str = ""
 
     @property
-    def failures(self) -> int:
-        """Number of runs without a run-out."""
-        return int(np.count_nonzero(np.isnan(self.runouts)))
+    def name(self) -> str:
+        """The setting in one line."""
+        return named(self.changes)
 
-    def differences(self, reference: "Trial") -> Sample:
-        """Return the final run-outs less those of the reference in m."""
-        return self.runouts - reference.runouts
+    @property
+    def slides(self) -> int:
+        """Number of realizations that slid with no wall in the way."""
+        return int(np.isfinite(self.runouts).sum())
 
-    def rms(self, reference: "Trial") -> float:
-        """Return the root mean square difference of final run-outs in m; NaN if any failed."""
-        return float(np.sqrt(np.mean(self.differences(reference) ** 2)))
+    @property
+    def is_sound(self) -> bool:
+        """Whether there is something to compare: no failure, and slides enough."""
+        return not self.failures and self.slides >= FEWEST
 
-    def bias(self, reference: "Trial") -> float:
-        """Return the mean difference of final run-outs in m; NaN if any failed."""
-        return float(np.mean(self.differences(reference)))
+    @property
+    def std(self) -> float:
+        """Standard deviation between realizations in m."""
+        return float(np.nanstd(self.runouts, ddof=1))
+
+    @property
+    def remark(self) -> str:
+        """Why there is nothing to compare, "" if there is."""
+        if self.why_not or self.is_sound:
+            return self.why_not
+        n = len(self.runouts)
+        return f"{self.failures} of {n} failed" if self.failures else f"{self.slides} of {n} slid unhindered"
+
+
+def trial_of(outcome: Outcome, realizations: int) -> Trial:
+    """Return what a variant of a study has come to."""
+    cell, tally = outcome.scene.numerics.cell, outcome.tally
+    if tally is None:
+        nothing = np.full(realizations, np.nan)
+        return Trial(outcome.changes, cell, nothing, outcome.seconds, why_not=outcome.why_not)
+    summaries = [each for k, each in sorted(tally.summaries.items()) if k != BASELINE][:realizations]
+    runouts = np.array([unhindered_runout(each, tally.front) for each in summaries])
+    failures = sum(each.status in FAILED for each in summaries)
+    return Trial(outcome.changes, cell, runouts, outcome.seconds, failures)
+
+
+class Judged(NamedTuple):
+    """A setting against the finest mesh.
+
+    Attributes
+    ----------
+    trial : Trial
+    shift : Interval
+        Of the mean run-out in m, from realizations that slid in both; exactly zero for the finest mesh itself.
+    quantile : float
+        Of the normal distribution, for the half-width of the sampling error.
+    """
+
+    trial: Trial
+    shift: Interval
+    quantile: float
+
+    @property
+    def bias(self) -> float:
+        """The largest shift in m that the realizations leave possible."""
+        return max(abs(self.shift.lower), abs(self.shift.upper))
+
+    def error(self, seconds: float) -> float:
+        """Return the total error in m, at most, of a campaign that takes so much core time."""
+        return self.bias + self.quantile * self.trial.std * math.sqrt(self.trial.seconds / seconds)
+
+    def cost(self, error: float) -> float:
+        """Return the core time in s of a campaign with such a total error in m; infinite where there is none."""
+        room = error - self.bias
+        return self.sampling_cost(room) if room > 0 else math.inf
+
+    def sampling_cost(self, half_width: float) -> float:
+        """Return the core time in s until the sampling error is so large in m."""
+        return max(FEWEST, (self.quantile * self.trial.std / half_width) ** 2) * self.trial.seconds
 
 
 @dataclass(frozen=True, eq=False)
 class Tradeoff:
-    """All settings of a scene; `reference` is one of `trials`."""
+    """All settings that were tried, the scene as it is first; `reference` is one of them, with the finest mesh."""
 
     scene: Scene
     trials: Sequence[Trial]
     reference: Trial
 
-    @property
-    def compared(self) -> list[Trial]:
-        """Trials without a failure, the cheapest first."""
-        sound = [trial for trial in self.trials if trial.was_run and not trial.failures]
-        return sorted(sound, key=lambda trial: trial.seconds)
+    @cached_property
+    def judged(self) -> list[Judged]:
+        """The sound trials."""
+        return [self._judged(trial) for trial in self.trials if trial.is_sound]
+
+    def _judged(self, trial: Trial) -> Judged:
+        confidence = self.scene.campaign.confidence
+        shift = Interval(0.0, 0.0, 0.0, trial.slides)
+        if trial is not self.reference:
+            shift = mean_interval(_paired(trial, self.reference), confidence)
+        return Judged(trial, shift, normal_quantile(confidence))
 
     @property
-    def front(self) -> list[Trial]:
-        """Trials that no cheaper one equals in accuracy, the cheapest first."""
-        front: list[Trial] = []
-        for trial in self.compared:
-            if not front or trial.rms(self.reference) < front[-1].rms(self.reference):
-                front.append(trial)
+    def mean(self) -> float:
+        """The mean run-out in m on the finest mesh."""
+        return float(np.nanmean(self.reference.runouts))
+
+    @property
+    def wanted(self) -> float:
+        """The total error in m that a setting is recommended for."""
+        asked = self.scene.campaign.accuracy
+        return (tolerance(asked) if asked else NEAR).metres(self.mean)
+
+    @property
+    def sampling(self) -> float:
+        """The sampling error in m at which campaigns of the settings are drawn: half of the wanted error."""
+        return self.wanted / 2
+
+    @property
+    def mesh_doubt(self) -> float:
+        """How far off the finest mesh itself may be in m: by what the last halving changed; NaN without one."""
+        coarser = [each for each in self.trials if not each.changes and each is not self.reference and each.is_sound]
+        return abs(float(np.mean(_paired(self.reference, coarser[0])))) if coarser else math.nan
+
+    @property
+    def front(self) -> list[Judged]:
+        """Settings than which no cheaper one is as near, by campaigns of the drawn sampling error."""
+        front: list[Judged] = []
+        for each in sorted(self.judged, key=lambda each: each.sampling_cost(self.sampling)):
+            if not front or each.bias < front[-1].bias:
+                front.append(each)
         return front
 
     @property
-    def recommended(self) -> Trial | None:
-        """The cheapest trial on the front within `NEAR` of the reference, other than that; None if there is none."""
-        allowed = NEAR * float(np.mean(self.reference.runouts))
-        near = (t for t in self.front if t is not self.reference and t.rms(self.reference) <= allowed)
-        return next(near, None)
+    def recommended(self) -> Judged | None:
+        """The setting with which the wanted error costs least; None if none reaches it."""
+        best = min(self.judged, key=lambda each: each.cost(self.wanted))
+        return best if math.isfinite(best.cost(self.wanted)) else None
+
+    def of(self, trial: Trial) -> Judged | None:
+        """Return how a trial is judged, None if it is not."""
+        return next((each for each in self.judged if each.trial is trial), None)
+
+    def multilevel_cost(self, half_width: float) -> float:
+        """Return the core time in s to know the mean on the finest mesh so well in m, with cheaper models beside it.
+
+        As `--accuracy` would, with those of the settings that it knows. NaN where there are none.
+        """
+        models = [self.reference, *(each for each in self.trials if each.is_sound and _is_cheap_model(each))]
+        models = sorted({id(each): each for each in models}.values(), key=lambda each: -each.seconds)
+        slid = np.isfinite([each.runouts for each in models]).all(axis=0)
+        if len(models) < 2 or models[0] is not self.reference or slid.sum() < FEWEST:
+            return math.nan
+        scatter = nested_mean([each.runouts[slid] for each in models]).scatter
+        variance = (half_width / normal_quantile(self.scene.campaign.confidence)) ** 2
+        cost = [each.seconds for each in models]
+        counts = allocation(scatter, cost, variance, [FEWEST] * len(models))
+        return math.fsum(n * c for n, c in zip(counts, cost, strict=True))
 
     @property
     def advice(self) -> str:
-        """What to choose, in a sentence."""
-        chosen, reference = self.recommended, self.reference
-        against = f"the run-outs with cells of {reference.cell:g} m ({reference.setting})"
+        """What to choose, in sentences."""
+        n, cell = len(self.reference.runouts), self.reference.cell
+        against = f"the mean run-out with cells of {cell:g} m, {self.mean:.2f} m, by {counted(n, 'realization')}"
+        chosen = self.recommended
         if chosen is None:
-            return f"No cheaper setting is within {100 * NEAR:g} % of {against}, so none of them is recommended."
-        faster = reference.seconds / chosen.seconds
+            nearest = min(self.judged, key=lambda each: each.bias)
+            found = (
+                f"With none of the settings {against}, is known to {self.wanted:.2f} m: "
+                f"the nearest, {nearest.trial.name}, may shift it by up to {nearest.bias:.2f} m."
+            )
+        else:
+            found = (
+                f"Recommended: {chosen.trial.name}. It shifts {against}, by no more than {chosen.bias:.2f} m, so that "
+                f"a campaign is within {self.wanted:.2f} m of it{self._gain(chosen)}."
+            )
+        return f"{found} {self._doubt}".strip()
+
+    def _gain(self, chosen: Judged) -> str:
+        own, cost = self.of(self.trials[0]), chosen.cost(self.wanted)
+        if own is None or own is chosen:
+            return ""
+        usual = own.cost(self.wanted)
+        if math.isfinite(usual):
+            return f" for {100 * cost / usual:.2g} % of the core time that the scene as it is takes"
+        return ", which the scene as it is cannot reach"
+
+    @property
+    def _doubt(self) -> str:
+        if math.isnan(self.mesh_doubt):
+            return "How far off that mesh itself is, is not known: a finer one did not fit into the budget."
         return (
-            f"Recommended: {chosen.setting}, within {chosen.rms(reference):.2f} m of {against} at a cost {faster:.1f} "
-            "times smaller."
+            f"That mesh itself may be off by some {self.mesh_doubt:.2f} m, which is what the last halving of the cell "
+            "changed."
         )
 
 
-def settings(scene: Scene) -> list[str]:
-    """Return the overrides to try one at a time; those of the scene itself are left out."""
-    cell, modulus = scene.numerics.cell, scene.soil.young_modulus
-    own = {key: getattr(scene.numerics, key.partition(".")[2]) for key in CHOICES}
-    return [
-        f"numerics.cell={2 * cell:g} m",
-        *(f"{key}={value}" for key, values in CHOICES.items() for value in values if value != own[key]),
-        f"soil.young_modulus={modulus / 4e6:g} MPa",
-    ]
+def _paired(trial: Trial, other: Trial) -> Sample:
+    differences = trial.runouts - other.runouts
+    return differences[np.isfinite(differences)]
 
 
-def needed(scene: Scene, setting: str) -> list[str]:
-    """Return what a basis or a stress update needs beside it: a stable Courant number, and no averages of wide domains.
-
-    Those that are unstable at any Courant number need what is not there.
-    """
-    key, value = setting.split("=")
-    own = scene.numerics.model_dump() | {key.partition(".")[2]: value}
-    if key not in ("numerics.basis", "numerics.stress_update"):
-        return []
-    largest = largest_courant(own["basis"], own["stress_update"])
-    step = [f"numerics.courant={largest:g}"] if 0.0 < largest < scene.numerics.courant else []
-    averaged = own["basis"] == "bspline" and scene.numerics.locking == "cell-average"
-    return step + ["numerics.locking=none"] * averaged
-
-
-def compare(scene: Scene, realizations: int, budget: float, directory: Path, say: Callable[[str], None]) -> Tradeoff:
-    """Run the deterministic run and `realizations` realizations of a scene with each setting.
-
-    Parameters
-    ----------
-    scene
-    realizations
-        Random fields to run.
-    budget
-        CPU time in s; what is estimated to exceed the rest of it is left out; half the cell comes first.
-    directory
-        For files of the field sampler.
-    say
-        Hears a line for every setting.
-
-    Raises
-    ------
-    RefusalError
-        If the scene itself gives no run-out.
-    """
-    bench = Bench(realizations, budget, directory)
-    own = bench.tried(OWN, scene, realization_seconds(scene), say)
-    if own.failures:
-        raise RefusalError(f"The scene itself gives no run-out to compare with: {own.reason or 'over the budget'}.")
-    speed = own.seconds / realization_seconds(scene)
-    trials = [own]
-    for setting in (f"numerics.cell={scene.numerics.cell / 2:g} m", *settings(scene)):
-        overrides = [setting, *needed(scene, setting)]
-        told = ", ".join(overrides)
-        try:
-            variant = kept_scene(scene.text, [*scene.overrides, *overrides])
-        except RefusalError as refusal:
-            say(f"{told}: left out, no valid scene. {refusal.__cause__}")
-            continue
-        trials.append(bench.tried(told, variant, speed * realization_seconds(variant), say))
-    return Tradeoff(scene, trials, min((t for t in trials if not t.failures), key=lambda trial: trial.cell))
-
-
-class Bench:
-    """Runs settings while the budget lasts."""
-
-    def __init__(self, realizations: int, budget: float, directory: Path) -> None:
-        self.ids = range(BASELINE, realizations)
-        self._end = time.process_time() + budget
-        self._directory = directory
-
-    def tried(self, setting: str, scene: Scene, estimate: float, say: Callable[[str], None]) -> Trial:
-        """Run a setting of which a realization is estimated to cost `estimate` seconds, or say why not."""
-        total, left = estimate * len(self.ids), self._end - time.process_time()
-        if total > left:
-            reason = f"left out, about {duration(total)} of CPU time and {duration(max(left, 0))} left"
-            say(f"{setting}: {reason}")
-            return Trial(setting, scene.numerics.cell, np.full(len(self.ids), np.nan), estimate, reason, was_run=False)
-        say(f"{setting}: about {total:.2g} s of CPU time")
-        return self._run(setting, scene, estimate)
-
-    def _run(self, setting: str, scene: Scene, estimate: float) -> Trial:
-        runouts, seconds, reasons = np.full(len(self.ids), np.nan), [], []
-        try:
-            ground = prepare(scene, self._directory)
-            for i, realization in enumerate(self.ids):
-                begin = time.process_time()
-                runouts[i], reason = self._runout(ground, realization)
-                seconds.append(time.process_time() - begin)
-                reasons.append(reason)
-        except (RefusalError, SamplerError) as refusal:
-            reasons.append(str(refusal))
-        median = float(np.median(seconds)) if seconds else estimate
-        return Trial(setting, scene.numerics.cell, runouts, median, next(filter(None, reasons), ""))
-
-    def _runout(self, ground: Ground, realization: int) -> tuple[float, str]:
-        """Return the final run-out in m, or NaN and why there is none."""
-        try:
-            record = ground.simulate(realization, lambda: time.process_time() > self._end)
-        except Interrupted:
-            return np.nan, "the budget of CPU time is used up"
-        except Exception as error:
-            return np.nan, f"crashed ({error!r})"
-        if record.status not in UNHINDERED:
-            return np.nan, without_debris(record.reason) or WITHOUT_RUNOUT.get(record.status, record.status.name)
-        return float(np.asarray(record.values[FINAL_RUNOUT[ground.scene.slide.front]])), ""
+def _is_cheap_model(trial: Trial) -> bool:
+    """Whether `--accuracy` would run it, too: other cells, softer ground."""
+    return all(change.startswith(("numerics.cell=", "soil.young_modulus=")) for change in trial.changes)

@@ -12,6 +12,7 @@ from campaign import cli
 from campaign.commands import run as run_command
 from campaign.commands.scene_options import read_scene, scene_directory
 from campaign.errors import CampaignError, RefusalError
+from campaign.running import launcher
 from campaign.storage import manifest
 
 
@@ -56,7 +57,7 @@ def test_a_scene_that_the_directory_cannot_have_meant_is_a_mistake_of_the_user(b
 def test_a_directory_is_continued_where_it_is(begun, monkeypatch):
     seen = []
     monkeypatch.setattr("campaign.running.mpi.run_on_ranks", lambda scene, out, *_: seen.append((scene(), out)) or 0)
-    for name in run_command.SIZES:
+    for name in launcher.SIZES:
         monkeypatch.delenv(name, raising=False)
     assert run_command.carry_out(options(begun[0])) == 0
     assert seen == [(begun[1], begun[0])]
@@ -82,7 +83,7 @@ def loaded(*arguments, **environment):
         "atexit.register(lambda: print('LOADED', json.dumps(sorted(slow & set(sys.modules)))))\n"
         "from campaign.cli import main\nsys.exit(main())"
     )
-    clean = {name: value for name, value in os.environ.items() if name not in run_command.SIZES}
+    clean = {name: value for name, value in os.environ.items() if name not in launcher.SIZES}
     result = subprocess.run(
         [sys.executable, "-c", program, *arguments],
         capture_output=True,

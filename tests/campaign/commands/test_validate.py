@@ -4,6 +4,7 @@ import pytest
 
 from campaign import cli
 from campaign.commands import run as run_command
+from campaign.running import launcher
 
 
 @pytest.fixture(autouse=True)
@@ -96,7 +97,7 @@ NOT_RUN = [
 @pytest.mark.parametrize("command", ["validate", "run"])
 def test_what_cannot_be_run_is_refused_alike(command, override, capsys, monkeypatch):
     monkeypatch.setattr(run_command, "_run_on_ranks", lambda *_: pytest.fail("it was begun"))
-    for name in run_command.SIZES:
+    for name in launcher.SIZES:
         monkeypatch.delenv(name, raising=False)
     assert cli.main([command, "ma2023", "--set", override]) == 2
     printed = capsys.readouterr()

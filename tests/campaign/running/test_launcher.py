@@ -25,9 +25,9 @@ def test_a_lone_rank_of_many_is_noticed(size, environment, refused):
 @pytest.mark.parametrize(("number", "words"), [("0", "start it without mpirun or srun"), ("1", "^$")])
 def test_what_is_not_shared_is_refused_by_all_and_told_by_one(number, words):
     with pytest.raises(RefusalError, match=words):
-        refuse_several("tradeoff", {"PMI_SIZE": "2", "PMI_RANK": number})
+        refuse_several("report", {"PMI_SIZE": "2", "PMI_RANK": number})
 
 
 @pytest.mark.parametrize("environment", [{}, {"PMI_SIZE": "1"}, {"SLURM_NTASKS": "8"}])
 def test_one_process_carries_out_any_command(environment):
-    refuse_several("tradeoff", environment)
+    refuse_several("report", environment)

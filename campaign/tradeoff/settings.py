@@ -1,0 +1,64 @@
+"""The settings of a scene among which speed and accuracy are to be weighed."""
+
+from collections.abc import Iterable, Sequence
+from itertools import chain
+
+from campaign.accuracy.settings import SOFTER
+from campaign.running.study import Changes
+from campaign.scene import Scene
+from campaign.scene.units import PRESSURE, shown_in_unit
+from solver.timestep import largest_courant
+
+CHOICES: dict[str, Sequence[str | int | float]] = {
+    "numerics.basis": ("gimp", "linear", "bspline"),
+    "numerics.stress_update": ("musl", "usl", "usf"),
+    "numerics.locking": ("none", "cell-average"),
+    "numerics.courant": (0.3, 0.6, 0.9),
+    "numerics.particles_per_cell": (4, 9, 16),
+}
+
+
+def finer(scene: Scene) -> Changes:
+    """Return half the cell."""
+    return (_cell(scene, 0.5),)
+
+
+def settings(scene: Scene) -> list[Changes]:
+    """Return what to try, one thing at a time and with what that needs, and the cheap model of an accuracy."""
+    softer = f"soil.young_modulus={shown_in_unit(scene.soil.young_modulus / SOFTER, PRESSURE)}"
+    single = (
+        [f"{key}={value}", *needed(scene, key, value)]
+        for key, values in CHOICES.items()
+        for value in values
+        if value != _own(scene, key)
+    )
+    return [(softer,), (_cell(scene, 2.0),), (_cell(scene, 2.0), softer), *map(tuple, single)]
+
+
+def together(settings: Iterable[Changes]) -> Changes:
+    """Return all changes at once; where two change the same, the first counts."""
+    changes = {change.partition("=")[0]: change for change in reversed([*chain.from_iterable(settings)])}
+    return tuple(sorted(changes.values()))
+
+
+def needed(scene: Scene, key: str, value: str | int | float) -> list[str]:
+    """Return what a basis or a stress update needs beside it: a stable Courant number, and no averages of wide domains.
+
+    Those that are unstable at any Courant number need what is not there.
+    """
+    own = scene.numerics.model_dump() | {key.partition(".")[2]: value}
+    if key not in ("numerics.basis", "numerics.stress_update"):
+        return []
+    largest = largest_courant(own["basis"], own["stress_update"])
+    step = [f"numerics.courant={largest:g}"] if 0.0 < largest < scene.numerics.courant else []
+    averaged = own["basis"] == "bspline" and scene.numerics.locking == "cell-average"
+    return step + ["numerics.locking=none"] * averaged
+
+
+def _cell(scene: Scene, factor: float) -> str:
+    return f"numerics.cell={factor * scene.numerics.cell:g} m"
+
+
+def _own(scene: Scene, key: str) -> str | int | float:
+    value: str | int | float = getattr(scene.numerics, key.partition(".")[2])
+    return value
