@@ -1,5 +1,6 @@
 """Speed against accuracy in one chart, and up to which Courant numbers the methods are stable in another below it."""
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -9,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from numpy.typing import NDArray
 
-from campaign.report.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, Illustration, in_style, letter, new_figure
+from campaign.report.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, Illustration, in_style, new_figure
 from campaign.scene import Scene
-from campaign.tradeoff.settings import CHOICES
+from campaign.tradeoff.settings import CHOICES, in_short
 from campaign.tradeoff.trials import Judged, Tradeoff, Trial
 from solver.timestep import largest_courant
 
@@ -45,7 +46,7 @@ def draw(tradeoff: Tradeoff, path: Path) -> None:
 
 def chart(tradeoff: Tradeoff) -> Illustration:
     """Draw the total error of the mean run-out against the core time of a campaign, and the stable Courant numbers."""
-    figure, (axes, steps) = new_figure(8.2, rows=2, height_ratios=(3.4, 1.0))
+    figure, (axes, names, steps) = new_figure(8.8, rows=3, height_ratios=(4.0, 1.6, 1.0))
     sound = [_point(each, tradeoff) for each in tradeoff.judged]
     top = 1.3 * max([*(point.error for point in sound), tradeoff.reference.std])
     failed = _failed(tradeoff, sound, top)
@@ -56,11 +57,11 @@ def chart(tradeoff: Tradeoff) -> Illustration:
     _draw_levels(axes, tradeoff)
     _draw_lines(axes, tradeoff)
     _draw_points(axes, [*sound, *failed], tradeoff)
-    _number(axes, [*sound, *failed], tradeoff)
+    _number(axes, names, [*sound, *failed], tradeoff)
     axes.set(xlabel="core time of a campaign", ylabel="total error of the mean run-out, at most (m)")
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=2, fontsize=8)
     _draw_stable_steps(steps, tradeoff.scene)
-    letter([steps], ["Largest stable Courant number"])
+    steps.set_title("Largest stable Courant number")
     caption = (
         f"Total error of the mean run-out against that with cells of {tradeoff.reference.cell:g} m, from "
         f"{len(tradeoff.reference.runouts)} random fields in each setting: what the setting may shift the mean by, and "
@@ -91,9 +92,7 @@ def _draw_levels(axes: Axes, tradeoff: Tradeoff) -> None:
         (tradeoff.reference.std, GREY, f"scatter between realizations, {tradeoff.reference.std:.2f} m"),
     ):
         axes.axhline(height, color=colour, linewidth=0.8, linestyle=":")
-        axes.text(
-            0.995, height, words, transform=axes.get_yaxis_transform(), ha="right", va="bottom", fontsize=8, color=BLACK
-        )
+        axes.annotate(words, (0.995, height), xycoords=("axes fraction", "data"), ha="right", va="bottom", fontsize=8)
     if tradeoff.mesh_doubt > bottom:
         axes.axhspan(bottom, tradeoff.mesh_doubt, color=GREY, alpha=0.15, linewidth=0)
         words = " the finest mesh may be as far off itself"
@@ -103,15 +102,17 @@ def _draw_levels(axes: Axes, tradeoff: Tradeoff) -> None:
 def _draw_lines(axes: Axes, tradeoff: Tradeoff) -> None:
     """Draw what a longer campaign gains."""
     seconds, widths = np.geomspace(*axes.get_xlim(), 60), np.geomspace(*axes.get_ylim(), 60)
-    shown: list[Trial] = []
+    lines: dict[int, tuple[Judged, str, list[str]]] = {}
     for judged, colour, label in (
         (tradeoff.recommended, BLUE, "recommended"),
         (tradeoff.of(tradeoff.reference), BLACK, "finest mesh"),
         (tradeoff.of(tradeoff.trials[0]), GREY, "the scene as it is"),
     ):
-        if judged is not None and judged.trial not in shown:
-            shown.append(judged.trial)
-            axes.plot(seconds, [judged.error(each) for each in seconds], color=colour, linewidth=1.2, label=label)
+        if judged is not None:
+            lines.setdefault(id(judged.trial), (judged, colour, []))[2].append(label)
+    for judged, colour, labels in lines.values():
+        errors = [judged.error(each) for each in seconds]
+        axes.plot(seconds, errors, color=colour, linewidth=1.2, label=", ".join(labels))
     costs = [tradeoff.multilevel_cost(width) for width in widths]
     if np.isfinite(costs).any():
         axes.plot(costs, widths, "--", color=GREEN, linewidth=1.2, label="finest mesh with cheaper models (--accuracy)")
@@ -138,8 +139,8 @@ def _ticks(axes: Axes) -> None:
     axes.yaxis.set_major_formatter(FuncFormatter(lambda length, _: f"{length:g}"))
 
 
-def _number(axes: Axes, points: Sequence[Point], tradeoff: Tradeoff) -> None:
-    """Write numbers at the points where there is room, and list their names beside the chart."""
+def _number(axes: Axes, list_of_names: Axes, points: Sequence[Point], tradeoff: Tradeoff) -> None:
+    """Write numbers at the points where there is room, and list their names in another panel, in two columns."""
     points = sorted(points, key=lambda point: point.seconds)
     places = axes.transData.transform([point[1:3] for point in points]) * 72 / axes.figure.dpi
     taken = places
@@ -149,7 +150,10 @@ def _number(axes: Axes, points: Sequence[Point], tradeoff: Tradeoff) -> None:
         axes.annotate(str(number), point[1:3], offset, textcoords="offset points", ha="center", va="center", fontsize=8)
     names = [f"{number:2d}  {_name(point.trial, tradeoff)}" for number, point in enumerate(points, start=1)]
     names += [f" –  {_name(trial, tradeoff)}" for trial in tradeoff.trials if trial.why_not]
-    axes.text(1.03, 1.0, "\n".join(names), transform=axes.transAxes, va="top", fontsize=8, linespacing=1.5)
+    half = math.ceil(len(names) / 2)
+    list_of_names.set_axis_off()
+    for left, column in ((0.0, names[:half]), (0.48, names[half:])):
+        list_of_names.text(left, 1.0, "\n".join(column), va="top", fontsize=8, linespacing=1.5)
 
 
 def _roomiest(place: NDArray[np.float64], taken: NDArray[np.float64]) -> tuple[float, float]:
@@ -160,8 +164,7 @@ def _roomiest(place: NDArray[np.float64], taken: NDArray[np.float64]) -> tuple[f
 
 
 def _name(trial: Trial, tradeoff: Tradeoff) -> str:
-    """Return a setting without its sections, and what it is to the comparison: "cell = 2 m (recommended)"."""
-    name = ", ".join(map(_short, trial.changes)) or trial.name
+    """Return a setting in a few words, and what it is to the comparison: "cell 2 m (recommended)"."""
     chosen = tradeoff.recommended
     marks = {
         "finest mesh": trial is tradeoff.reference,
@@ -169,12 +172,8 @@ def _name(trial: Trial, tradeoff: Tradeoff) -> str:
         trial.remark.partition(":")[0]: not trial.is_sound,
     }
     told = [mark for mark, holds in marks.items() if holds]
+    name = in_short(trial.changes)
     return f"{name} ({', '.join(told)})" if told else name
-
-
-def _short(change: str) -> str:
-    key, _, value = change.partition("=")
-    return f"{key.rpartition('.')[2].replace('_', ' ')} = {value}"
 
 
 def _draw_stable_steps(axes: Axes, scene: Scene) -> None:

@@ -7,7 +7,7 @@ from campaign.running.crew import Crew
 from campaign.running.means import Lead
 from campaign.running.side_run import Means
 from campaign.running.stop_request import StopRequest
-from campaign.running.study import Changes, Study, conduct_study
+from campaign.running.study import Study, conduct_study
 from campaign.scene import Scene
 from campaign.simulation.contract import Prepare
 from campaign.tradeoff.settings import finer, settings, together
@@ -64,14 +64,6 @@ def compare(scene: Scene, realizations: int, budget: float, means: Means) -> Tra
     half = tried(*finer(scene))
     trials = [own, half, *(tried(*changes) for changes in settings(scene))]
     found = Tradeoff(scene, trials, half if half.is_sound else own)
-    good = _good(found)
-    return Tradeoff(scene, [*trials, tried(*together(good))], found.reference) if len(good) > 1 else found
-
-
-def _good(found: Tradeoff) -> list[Changes]:
-    """Return what is cheaper than the scene and near enough, the cheapest first, and of each kind the best."""
-    own, best = found.trials[0], dict[str, Changes]()
-    near = [each.trial for each in found.judged if each.bias < found.wanted and each.trial.seconds < own.seconds]
-    for trial in sorted(near, key=lambda trial: trial.seconds):
-        best.setdefault(trial.changes[0].partition("=")[0], trial.changes)
-    return [*best.values()]
+    if good := found.harmless:
+        trials += [tried(*together(changes)) for changes in (good, [*good, half.changes]) if len(changes) > 1]
+    return Tradeoff(scene, trials, found.reference)

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from itertools import chain
 
 from campaign.accuracy.settings import SOFTER
-from campaign.running.study import Changes
+from campaign.running.study import OWN, Changes
 from campaign.scene import Scene
 from campaign.scene.units import PRESSURE, shown_in_unit
 from solver.timestep import largest_courant
@@ -16,6 +16,24 @@ CHOICES: dict[str, Sequence[str | int | float]] = {
     "numerics.courant": (0.3, 0.6, 0.9),
     "numerics.particles_per_cell": (4, 9, 16),
 }
+
+
+WORDS = {
+    "numerics.cell": "cell {}",
+    "numerics.basis": "{} basis",
+    "numerics.stress_update": "{}",
+    "numerics.locking": "locking {}",
+    "numerics.courant": "Courant {}",
+    "numerics.particles_per_cell": "{} particles a cell",
+    "soil.young_modulus": "E {}",
+}
+"""How a change is told where there is little room."""
+
+
+def in_short(changes: Changes) -> str:
+    """Return changes in a few words, "cell 2 m, E 10 MPa"."""
+    parts = (change.partition("=") for change in changes)
+    return ", ".join(WORDS[key].format(value) for key, _, value in parts) or OWN
 
 
 def finer(scene: Scene) -> Changes:

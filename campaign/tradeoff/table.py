@@ -13,6 +13,7 @@ from campaign.files import write_atomically
 from campaign.results import dataset
 from campaign.statistics.wording import metres
 from campaign.terminal import duration, say
+from campaign.tradeoff.settings import in_short
 from campaign.tradeoff.trials import Tradeoff, Trial
 
 NUMBERS = {
@@ -82,11 +83,11 @@ def _line(trial: Trial, found: Tradeoff) -> tuple[str, ...]:
     judged = found.of(trial)
     seconds = f"{trial.seconds:.2g}" if math.isfinite(trial.seconds) else ""
     if judged is None:
-        return (trial.name, seconds, "", "", "", "", trial.remark)
+        return (in_short(trial.changes), seconds, "", "", "", "", trial.remark)
     cost = judged.sampling_cost(found.sampling)
     shift = "0" if trial is found.reference else f"{judged.shift.estimate:+.2f} m ({metres(judged.shift)})"
     return (
-        trial.name,
+        in_short(trial.changes),
         seconds,
         shift,
         f"{trial.std:.2f}",

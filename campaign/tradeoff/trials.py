@@ -9,8 +9,9 @@ the mean against the finest mesh, from realizations that both have run. No numbe
 """
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
@@ -18,17 +19,31 @@ import numpy as np
 
 from campaign.accuracy.allocation import allocation
 from campaign.accuracy.nested import FEWEST, nested_mean
-from campaign.record import FAILED
+from campaign.record import FAILED, UNHINDERED, Status
 from campaign.running.study import Changes, Outcome, named
 from campaign.scene import Scene
 from campaign.scene.constraints import Tolerance, tolerance
 from campaign.seeds import BASELINE
 from campaign.statistics.intervals import Interval, Sample, mean_interval, normal_quantile
 from campaign.statistics.repetition import unhindered_runout
-from campaign.terminal import counted
+from campaign.terminal import counted, duration
 
 NEAR = Tolerance(0.05, is_relative=True)
 """Total error of the mean run-out that a setting is recommended for, where the scene asks for none."""
+
+
+WORTH_IT = 0.9
+"""Of the core time of a realization: what saves less is not told from the noise of a busy machine."""
+
+END = {
+    Status.no_slide: "stood",
+    Status.timeout: "took too long",
+    Status.diverged: "diverged",
+    Status.left_domain: "left the ground",
+    Status.crashed: "crashed",
+    Status.reached_wall: "reached a wall",
+}
+"""What is said of realizations without a run-out of their own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,8 +60,8 @@ class Trial:
         Final run-out of realization 0, 1, ... in m, NaN of all that did not slide or had a wall in the way.
     seconds
         core time of one of them in s; the estimate where none was run.
-    failures
-        Number of them that failed.
+    ends
+        How those ended that did not slide or had a wall in the way, and how many of each.
     why_not
         Why none was run, "" if they were.
     """
@@ -55,7 +70,7 @@ class Trial:
     cell: float
     runouts: Sample
     seconds: float
-    failures: int = 0
+    ends: Mapping[Status, int] = field(default_factory=dict)
     why_not: str = ""
 
     @property
@@ -71,7 +86,7 @@ class Trial:
     @property
     def is_sound(self) -> bool:
         """Whether there is something to compare: no failure, and slides enough."""
-        return not self.failures and self.slides >= FEWEST
+        return self.slides >= FEWEST and not FAILED.intersection(self.ends)
 
     @property
     def std(self) -> float:
@@ -84,7 +99,7 @@ class Trial:
         if self.why_not or self.is_sound:
             return self.why_not
         n = len(self.runouts)
-        return f"{self.failures} of {n} failed" if self.failures else f"{self.slides} of {n} slid unhindered"
+        return ", ".join(f"{count} of {n} {END[status]}" for status, count in self.ends.items())
 
 
 def trial_of(outcome: Outcome, realizations: int) -> Trial:
@@ -95,8 +110,8 @@ def trial_of(outcome: Outcome, realizations: int) -> Trial:
         return Trial(outcome.changes, cell, nothing, outcome.seconds, why_not=outcome.why_not)
     summaries = [each for k, each in sorted(tally.summaries.items()) if k != BASELINE][:realizations]
     runouts = np.array([unhindered_runout(each, tally.front) for each in summaries])
-    failures = sum(each.status in FAILED for each in summaries)
-    return Trial(outcome.changes, cell, runouts, outcome.seconds, failures)
+    ends = Counter(each.status for each in summaries if each.status not in UNHINDERED)
+    return Trial(outcome.changes, cell, runouts, outcome.seconds, ends)
 
 
 class Judged(NamedTuple):
@@ -145,14 +160,27 @@ class Tradeoff:
     @cached_property
     def judged(self) -> list[Judged]:
         """The sound trials."""
-        return [self._judged(trial) for trial in self.trials if trial.is_sound]
+        return [self._judged(trial, self.reference) for trial in self.trials if trial.is_sound]
 
-    def _judged(self, trial: Trial) -> Judged:
+    def _judged(self, trial: Trial, reference: Trial) -> Judged:
         confidence = self.scene.campaign.confidence
         shift = Interval(0.0, 0.0, 0.0, trial.slides)
-        if trial is not self.reference:
-            shift = mean_interval(_paired(trial, self.reference), confidence)
+        if trial is not reference:
+            shift = mean_interval(_paired(trial, reference), confidence)
         return Judged(trial, shift, normal_quantile(confidence))
+
+    @property
+    def harmless(self) -> list[Changes]:
+        """What makes the scene cheaper on its own mesh and shifts its mean by little, of each kind the cheapest.
+
+        By little means by less than half of the wanted error, as far as the realizations tell.
+        """
+        own, best = self.trials[0], dict[str, Changes]()
+        for trial in sorted(self.trials, key=lambda trial: trial.seconds):
+            is_cheaper = trial.is_sound and trial.cell == own.cell and trial.seconds < WORTH_IT * own.seconds
+            if is_cheaper and self._judged(trial, own).bias < self.wanted / 2:
+                best.setdefault(trial.changes[0].partition("=")[0], trial.changes)
+        return [*best.values()]
 
     @property
     def mean(self) -> float:
@@ -214,21 +242,30 @@ class Tradeoff:
     @property
     def advice(self) -> str:
         """What to choose, in sentences."""
-        n, cell = len(self.reference.runouts), self.reference.cell
-        against = f"the mean run-out with cells of {cell:g} m, {self.mean:.2f} m, by {counted(n, 'realization')}"
-        chosen = self.recommended
+        reference, chosen = self.reference, self.recommended
+        n = counted(len(reference.runouts), "realization")
+        mean = f"the mean run-out with cells of {reference.cell:g} m ({self.mean:.2f} m in {n})"
         if chosen is None:
             nearest = min(self.judged, key=lambda each: each.bias)
             found = (
-                f"With none of the settings {against}, is known to {self.wanted:.2f} m: "
-                f"the nearest, {nearest.trial.name}, may shift it by up to {nearest.bias:.2f} m."
+                f"None of the settings gives {mean} to {self.wanted:.2f} m: the nearest, {nearest.trial.name}, may "
+                f"shift it by up to {nearest.bias:.2f} m."
             )
         else:
+            shift = f", which shifts it by up to {chosen.bias:.2f} m," if chosen.bias else ""
             found = (
-                f"Recommended: {chosen.trial.name}. It shifts {against}, by no more than {chosen.bias:.2f} m, so that "
-                f"a campaign is within {self.wanted:.2f} m of it{self._gain(chosen)}."
+                f"Recommended: {chosen.trial.name}. A campaign with it{shift} gives {mean} to {self.wanted:.2f} m in "
+                f"{duration(chosen.cost(self.wanted))} of core time{self._gain(chosen)}."
             )
-        return f"{found} {self._doubt}".strip()
+        return " ".join(filter(None, [found, self._multilevel(chosen), self._doubt]))
+
+    def _multilevel(self, chosen: Judged | None) -> str:
+        """Say what an accuracy would take, where that is less."""
+        cost, usual = self.multilevel_cost(self.wanted), chosen.cost(self.wanted) if chosen else math.inf
+        if not cost < usual:
+            return ""
+        cell, told = self.reference.cell, duration(cost)
+        return f"An --accuracy, which runs cheaper models beside those cells of {cell:g} m, would take {told}."
 
     def _gain(self, chosen: Judged) -> str:
         own, cost = self.of(self.trials[0]), chosen.cost(self.wanted)
@@ -236,8 +273,8 @@ class Tradeoff:
             return ""
         usual = own.cost(self.wanted)
         if math.isfinite(usual):
-            return f" for {100 * cost / usual:.2g} % of the core time that the scene as it is takes"
-        return ", which the scene as it is cannot reach"
+            return f", {100 * cost / usual:.2g} % of what the scene as it is takes"
+        return f"; the scene as it is may shift it by up to {own.bias:.2f} m, however many realizations it runs"
 
     @property
     def _doubt(self) -> str:

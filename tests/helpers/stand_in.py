@@ -5,6 +5,7 @@ Run under mpirun as a campaign: `python stand_in.py DIR REALIZATIONS`, with STAN
 
 import ctypes
 import errno
+import math
 import os
 import resource
 import signal
@@ -12,6 +13,7 @@ import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -109,11 +111,15 @@ if __name__ == "__main__":
     from campaign.record import Status
     from campaign.running import watch
     from campaign.running.campaign_directory import Earlier
-    from campaign.running.mpi import run_on_ranks
+    from campaign.running.mpi import on_ranks, run_on_ranks
+    from campaign.tradeoff.compare import lead
 
     watch.GRACE = float(os.environ.get("STAND_IN_GRACE", "300"))
     retry = frozenset(Status[name] for name in os.environ.get("STAND_IN_RETRY", "").split())
     directory, count, *overrides = sys.argv[1:]
     alone = ["campaign.discretisation_pairs=0", "campaign.sensitivity_pairs=0"]
     wanted = [f"campaign.realizations={count}", *alone, *overrides]
-    sys.exit(run_on_ranks(lambda: load_scene("ma2023", wanted), Path(directory), prepare, None, Earlier(False, retry)))
+    scene = partial(load_scene, "ma2023", wanted)
+    if "STAND_IN_TRADEOFF" in os.environ:
+        sys.exit(on_ranks(scene, lambda _: Path(directory), lead(math.inf, prepare)))
+    sys.exit(run_on_ranks(scene, Path(directory), prepare, None, Earlier(False, retry)))
