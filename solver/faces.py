@@ -47,7 +47,7 @@ def _foot_of_stack(x: np.ndarray, y: np.ndarray, head: int, foot: int, steepness
     faces = _faces(x, y, steepness)
     joined = True
     while joined:
-        highest = max(y[a] - y[b] for a, b in faces if head <= a and b <= foot) if faces else 0.0
+        highest = max(y[max(a, head)] - y[min(b, foot)] for a, b in faces if a < foot and head < b)
         below = (b for a, b in faces if a >= foot and _is_joined(x, y, (head, foot), (a, b), highest))
         joined = (lower := next(below, None)) is not None
         foot = lower if lower is not None else foot
@@ -57,7 +57,7 @@ def _foot_of_stack(x: np.ndarray, y: np.ndarray, head: int, foot: int, steepness
 def _is_joined(x: np.ndarray, y: np.ndarray, slope: tuple[int, int], face: tuple[int, int], highest: float) -> bool:
     """Whether a face is near the slope above it, high beside its faces, and followed by ground that stays down."""
     (head, foot), (a, b) = slope, face
-    bench = WIDEST_BENCH * (y[head] - y[b])
+    bench = WIDEST_BENCH * max(0.0, y[head] - y[b])
     lasting = y[foot] - np.max(y[b:][x[b:] <= x[b] + bench])
     return bool(x[a] - x[foot] <= bench and lasting >= LOWEST_FACE * highest)
 
@@ -69,9 +69,14 @@ def _faces(x: np.ndarray, y: np.ndarray, steepness: float) -> list[tuple[int, in
     return [(int(a), int(b)) for a, b in bounds.reshape(-1, 2)]
 
 
-def descent(x: np.ndarray, y: np.ndarray) -> float:
-    """Return the largest descent in m between two points of a surface, the lower one on the right."""
-    return float(np.max(np.where(x - x[:, None] >= 0.0, y[:, None] - y, 0.0)))
+def descent(y: np.ndarray) -> float:
+    """Return the largest descent in m from a point of a surface to a later one."""
+    return float(np.max(_drops(y)))
+
+
+def _drops(y: np.ndarray) -> np.ndarray:
+    """Return by how much each point (row) lies above each later one (column) in m; 0 for those before it."""
+    return np.triu(y[:, None] - y, 1)
 
 
 def is_steep(drop: float, run: float, steepness: float) -> bool:
@@ -95,12 +100,11 @@ def steepest_face(x: np.ndarray, y: np.ndarray) -> tuple[int, int]:
     ValueError
         If the ground nowhere descends to the right.
     """
-    drop = y[:, None] - y
-    run = x - x[:, None]
-    largest = descent(x, y)
+    drop, run = _drops(y), x - x[:, None]
+    largest = descent(y)
     if not largest > 0.0:
         raise ValueError("The ground nowhere descends to the right, where slides go; mirror it.")
-    is_face = (run >= 0.0) & (drop >= 0.5 * largest)
+    is_face = drop >= 0.5 * largest
     steepness = np.divide(drop, run, out=np.full_like(drop, np.inf), where=run > 0.0)
     steepest = np.max(steepness[is_face])
     # Of equally steep stretches the one that falls most is the whole face.

@@ -46,7 +46,7 @@ class Surface(NamedTuple):
         x, y = self.x[upslope], self.y[upslope]
         if x[-1] < self.toe_x:
             x, y = np.append(x, self.toe[0]), np.append(y, self.toe[1])
-        return float(x[face_stack(x, y)[0]]) if descent(x, y) > 0.0 else self.toe_x
+        return float(x[face_stack(x, y)[0]]) if descent(y) > 0.0 else self.toe_x
 
     def height_at(self, x: np.ndarray) -> np.ndarray:
         """Return the elevation in m above each ``x``; on a vertical face that of the ground to its right."""

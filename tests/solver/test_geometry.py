@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from solver.faces import foot_of_slope
+from solver.faces import face_stack, foot_of_slope
 from solver.filling import fill_ground
 from solver.surface import Surface, slope_surface
 
@@ -72,6 +72,26 @@ def test_slope_has_its_toe_at_the_foot():
 )
 def test_the_toe_is_the_foot_of_the_slope_however_many_faces_short_benches_part(points, toe):
     assert foot_of_slope(*np.array(points, dtype=float).T) == toe
+
+
+def test_a_wall_that_faces_away_is_no_face():
+    """A step up of 8 m, higher than the slope, and 4 m down beyond it."""
+    points = np.array([(0, 2), (20, 2), (20, 10), (30, 10), (34, 6), (60, 6)], dtype=float)
+    assert foot_of_slope(*points.T) == 34.0
+
+
+def test_any_surface_that_descends_has_a_slope_that_descends():
+    """Rough ones and ones with walls either way; one with a steep ditch through the slope among them."""
+    rng = np.random.default_rng(20)
+    for _ in range(500):
+        x = np.sort(rng.uniform(0.0, 40.0, rng.integers(2, 16)))
+        x = np.round(x / 4) * 4 if rng.random() < 0.5 else x
+        y = np.cumsum(rng.normal(0.0, 2.0, x.size))
+        if np.all(np.diff(y) >= 0.0):
+            continue
+        head, foot = face_stack(x, y)
+        assert head < foot
+        assert y[head] > y[foot]
 
 
 def test_the_foot_does_not_depend_on_how_finely_a_surface_is_drawn():
