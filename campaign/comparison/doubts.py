@@ -16,6 +16,9 @@ CRITERIA = ("slide.displaced", "slide.failed", "slide.front_area")
 STOPPED = {Status.reached_wall: "a wall of the model", Status.not_settled: "the end of the run"}
 """What makes a run-out a lower bound."""
 
+BIASED = "the difference is biased"
+"""What follows where these are few."""
+
 
 def doubts(given: Comparison) -> list[str]:
     """Return what has to be said of a comparison, a sentence each."""
@@ -86,13 +89,24 @@ def _of_runouts(given: Comparison, scenario: int) -> Iterator[str]:
         yield f"The realizations of {name} were computed by several versions of the solver."
     for status, what in STOPPED.items():
         if bounds := int(np.count_nonzero(results.has_status([status])[given.ids])):
+            follows = f"so is each number of {name} but P(slide)" if given.is_cut_short(scenario) else BIASED
             yield (
                 f"In {name} {what} stopped {bounds} of the {len(given.ids)} realizations: there the run-out is a lower "
-                "bound, and the difference is biased."
+                f"bound, and {follows}."
             )
 
 
 def _receptors(given: Comparison) -> Iterator[str]:
     named = [receptor.name for each in given.scenarios for receptor in each.scene.receptor]
-    if missing := [name for name in dict.fromkeys(named) if name not in given.receptors]:
+    if missing := [name for name in dict.fromkeys(named) if name not in given.shared_names]:
         yield f"Left out are receptors that are not in all campaigns: {', '.join(missing)}."
+    for name in given.shared_names:
+        if not given.is_one_place(name):
+            places = [
+                f"{_stretch(*ends)} in {each}" for ends, each in zip(given.stretches(name), given.names, strict=True)
+            ]
+            yield f"Left out is {name}, which is another place in each campaign: {', '.join(places)}."
+
+
+def _stretch(near: float, far: float) -> str:
+    return f"x = {near:g} m" if near == far else f"x = {near:g} to {far:g} m"

@@ -1,5 +1,6 @@
 """What is compared: every number of a scenario, and how far it is from that of the first one."""
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple
@@ -50,8 +51,7 @@ def measures(given: Comparison, distances: Sequence[float]) -> list[Measure]:
     distances : sequence of float
         In m; the probability of a longer run-out is compared at each.
     """
-    return [
-        _slide_probability(given),
+    of_slides = [
         *_runouts(given),
         *(_exceedance(given, distance) for distance in distances),
         *_reach(given),
@@ -61,6 +61,7 @@ def measures(given: Comparison, distances: Sequence[float]) -> list[Measure]:
             lambda other: mean_difference(given.volumes(0), given.volumes(other), given.confidence),
         ),
     ]
+    return [_slide_probability(given), *(_as_bounded(given, each) for each in of_slides)]
 
 
 def _against_first(
@@ -71,6 +72,21 @@ def _against_first(
     at: float | str = "",
 ) -> Measure:
     return Measure(*about, dim, at, [difference(other) for other in range(1, len(given.names))])
+
+
+def _as_bounded(given: Comparison, measure: Measure) -> Measure:
+    """Return a measure without the bounds that slides cut short leave open: they would have come farther."""
+    most = 1.0 if measure.unit == "1" else math.inf
+
+    def bounded(other: int, found: Difference) -> Difference:
+        interval = found.interval
+        if found.first < most and given.is_cut_short(0):
+            interval = interval._replace(lower=-math.inf)
+        if found.other < most and given.is_cut_short(other):
+            interval = interval._replace(upper=math.inf)
+        return found._replace(interval=interval)
+
+    return measure._replace(differences=[bounded(*each) for each in enumerate(measure.differences, start=1)])
 
 
 def _slide_probability(given: Comparison) -> Measure:

@@ -9,12 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from campaign.errors import RefusalError
-from campaign.record import FINAL_RUNOUT, USABLE, Front
+from campaign.record import FINAL_RUNOUT, LOWER_BOUND, USABLE, Front
 from campaign.results.results import Results, read_results
 from campaign.scene.comparison import differing_values
 from campaign.statistics.intervals import Sample
+from campaign.statistics.outcomes import FEW
 from campaign.statistics.receptors import REACHED
 from campaign.terminal import counted
+
+SAME_PLACE = 1e-6
+"""Distance in m below which places are one."""
 
 
 class Change(NamedTuple):
@@ -59,9 +63,30 @@ class Comparison:
 
     @property
     def receptors(self) -> tuple[str, ...]:
-        """Names of the receptors that all campaigns have, in the order of the first."""
+        """Names of the receptors that all campaigns have at the same place, in the order of the first."""
+        return tuple(name for name in self.shared_names if self.is_one_place(name))
+
+    @property
+    def shared_names(self) -> tuple[str, ...]:
+        """Names that receptors of all campaigns have, whatever their places, in the order of the first."""
         named = [_receptors(each) for each in self.scenarios]
         return tuple(name for name in named[0] if all(name in others for others in named))
+
+    def stretches(self, receptor: str) -> Sample:
+        """Return near and far end of a receptor in each campaign in m, (scenario, 2)."""
+        return np.array([each.data["receptor_x_bounds"].sel(receptor=receptor).values for each in self.scenarios])
+
+    def is_one_place(self, receptor: str) -> bool:
+        """Whether a receptor is at the same x in all campaigns, or as far from the toe: a longer crest moves both."""
+        stretches = self.stretches(receptor)
+        toes = np.array([[float(each.data.attrs["toe_x"])] for each in self.scenarios])
+        return any(np.ptp(ends, axis=0).max() < SAME_PLACE for ends in (stretches, stretches - toes))
+
+    def is_cut_short(self, scenario: int) -> bool:
+        """Whether walls or the end of the run cut so many slides short that numbers of them are lower bounds."""
+        results = self.scenarios[scenario]
+        cut = np.count_nonzero(results.has_status(LOWER_BOUND)[self.ids])
+        return bool(cut > FEW * np.count_nonzero(self.has_slid(scenario)))
 
     def has_slid(self, scenario: int) -> NDArray[np.bool_]:
         """Whether each realization slid, (realization,)."""

@@ -1,5 +1,6 @@
 """A comparison as text for the terminal."""
 
+import math
 from collections.abc import Sequence
 from textwrap import fill
 
@@ -50,9 +51,19 @@ def _row(measure: Measure, found: Difference) -> tuple[str, ...]:
     def number(value: float, sign: str = "") -> str:
         return f"{factor * value:{sign}{digits}}"
 
-    lower, upper = found.interval[1:3]
-    bounds = f"{number(lower, '+')} to {number(upper, '+')}" if found.interval.is_known else "too few"
+    estimate, lower, upper, n = found.interval
+    is_least = lower == -math.inf, upper == math.inf  # the number of the first campaign, and that of the other
     errors = (number(each) if each == each else "" for each in (found.paired_error, found.unpaired_error))
-    estimates = (f"{number(each)} {unit}" if each == each else "none" for each in (found.first, found.other))
-    difference = f"{number(found.interval.estimate, '+')} {points}" if found.interval.n else ""
+    estimates = (
+        f"{'at least ' if least else ''}{number(each)} {unit}" if each == each else "none"
+        for each, least in zip((found.first, found.other), is_least, strict=True)
+    )
+    bounds = {
+        (False, False): f"{number(lower, '+')} to {number(upper, '+')}" if found.interval.is_known else "too few",
+        (False, True): f"at least {number(lower, '+')}" if lower == lower else "too few",
+        (True, False): f"at most {number(upper, '+')}" if upper == upper else "too few",
+        (True, True): "open",
+    }[is_least]
+    side = {(False, True): "at least ", (True, False): "at most "}.get(is_least, "")
+    difference = f"{side}{number(estimate, '+')} {points}" if n else ""
     return (measure.words, *estimates, difference, bounds, *errors)

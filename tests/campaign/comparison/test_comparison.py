@@ -9,8 +9,10 @@ from campaign import cli
 from campaign.comparison.doubts import doubts
 from campaign.comparison.measures import measures
 from campaign.comparison.scenarios import compare
+from campaign.comparison.table import as_text
 from campaign.errors import RefusalError
 from campaign.record import Status
+from campaign.statistics.paired import mean_difference
 
 RUNOUTS = np.random.default_rng(1).normal(10.0, 1.0, 12)
 STRONGER = "soil.cohesion.mean=22 kPa"
@@ -97,6 +99,57 @@ def test_bounds_counts_and_other_receptors_are_told(tmp_path):
     assert given.receptors == ("road",)
     for words in ("12 in one, 10 in other", "another version", "1 of the 10", "Straße, house"):
         assert words in told
+
+
+def test_a_difference_from_slides_cut_short_has_one_bound(tmp_path):
+    """Walls stopped 4 of 12 in the other campaign: each of its numbers but P(slide) is at least so large."""
+    free = keep(tmp_path / "free", RUNOUTS, reaches=[1] * 4 + [0] * 8)
+    statuses = [*[Status.reached_wall] * 4, *[Status.slid] * 8]
+    walled = keep(tmp_path / "walled", RUNOUTS - 2.0, STRONGER, statuses=statuses, reaches=[1] * 12)
+    given = compare([free, walled])
+    found = by_words(given, 9.0)
+    plain = mean_difference(RUNOUTS, RUNOUTS - 2.0, 0.95)
+    closed = {words for words, difference in found.items() if np.isfinite(difference.interval.upper)}
+    assert closed == {"P(slide)", *(words for words in found if "reaches" in words)}  # all reach both places already
+    mean = found["mean run-out, 0 without a slide"]
+    assert mean.interval.lower == pytest.approx(plain.interval.lower)
+    told = " ".join(as_text(given, measures(given, [9.0]), doubts(given)).split())
+    assert f"at least {RUNOUTS.mean() - 2.0:.2f} m at least -2.00 m at least {mean.interval.lower:+.2f}" in told
+    back = " ".join(as_text(compare([walled, free]), measures(compare([walled, free]), []), []).split())
+    assert f"at least {RUNOUTS.mean() - 2.0:.2f} m {RUNOUTS.mean():.2f} m at most +2.00 m at most +2.00" in back
+    assert doubts(given) == [
+        "In walled a wall of the model stopped 4 of the 12 realizations: there the run-out is a lower bound, and so is "
+        "each number of walled but P(slide)."
+    ]
+
+
+def test_between_two_campaigns_cut_short_a_difference_is_open(tmp_path):
+    statuses = [*[Status.not_settled] * 6, *[Status.slid] * 6]
+    both = [keep(tmp_path / name, RUNOUTS, *over, statuses=statuses) for name, over in (("a", []), ("b", [STRONGER]))]
+    given = compare(both)
+    (mean,) = [
+        each for each in as_text(given, measures(given, []), []).split("\n") if each.startswith("mean run-out, 0")
+    ]
+    assert "open" in mean
+    assert mean.count("at least") == 2
+
+
+def test_receptors_of_one_name_at_two_places_are_told_apart(tmp_path):
+    """As far from the toe is the same place, as where the crest is longer; another distance and another x is not."""
+    one, other = keep(tmp_path / "one", RUNOUTS), keep(tmp_path / "other", RUNOUTS)
+    data = xr.load_dataset(other / "results.nc", decode_timedelta=False)
+    data["receptor_x_bounds"] = data["receptor_x_bounds"] + 10.0
+    data.attrs["toe_x"] += 10.0
+    data.to_netcdf(other / "results.nc")
+    assert compare([one, other]).receptors == ("road", "Straße")
+    data.attrs["toe_x"] -= 5.0
+    data.to_netcdf(other / "results.nc")
+    given = compare([one, other])
+    assert given.receptors == ()
+    assert doubts(given) == [
+        "Left out is road, which is another place in each campaign: x = 42 m in one, x = 52 m in other.",
+        "Left out is Straße, which is another place in each campaign: x = 45 to 47 m in one, x = 55 to 57 m in other.",
+    ]
 
 
 def test_what_cannot_be_compared_is_refused(two, tmp_path):
