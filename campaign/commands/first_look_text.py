@@ -15,7 +15,7 @@ from campaign.scene.cost import (
 )
 from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, TYPICAL_SLIDE, FirstLook
 from campaign.scene.limit_equilibrium import SlipCircle
-from campaign.scene.outlook import outlook
+from campaign.scene.outlook import may_slide, outlook
 from campaign.scene.sections import Softening
 from campaign.scene.softening import RING_SHEAR, is_brittle, softening_words
 from campaign.simulation.field_size import FieldSize
@@ -94,10 +94,11 @@ def _time(scene: Scene, look: FirstLook) -> str:
     first, middle, last = (each * look.time_scale for each in (SHORTEST_SLIDE, TYPICAL_SLIDE, LONGEST_SLIDE))
     numerics = scene.numerics
     ramp = f" Gravity rises for {numerics.ramp_time:g} s before." if numerics.gravity == "ramp" else ""
-    return (
-        f"Comparable slides come to rest after {first:.2g} to {last:.2g} s, half of them before {middle:.2g} s.{ramp} "
-        f"The run ends at {numerics.end_time:g} s."
-    )
+    rest = f"come to rest after {first:.2g} to {last:.2g} s, half of them before {middle:.2g} s"
+    end = f"The run ends at {numerics.end_time:g} s."
+    if not may_slide(look):
+        return f"{end}{ramp} Should the slope slide all the same: comparable slides {rest}."
+    return f"Comparable slides {rest}.{ramp} {end}"
 
 
 def _mesh(scene: Scene) -> str:

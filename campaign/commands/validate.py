@@ -36,7 +36,6 @@ def carry_out(options: argparse.Namespace) -> ExitCode:
     from campaign.scene.foresight import expected_of_slides, warnings
     from campaign.simulation.field_size import field_size, perhaps_too_large
     from campaign.statistics.stopping import too_few
-    from campaign.statistics.tally import tally_of
 
     scene = read_scene(options)
     refuse_unaffordable(scene)
@@ -47,8 +46,7 @@ def carry_out(options: argparse.Namespace) -> ExitCode:
         worth_saying.append(complaint)
     seen = None if options.quick else _trial(scene, look)
     worth_saying += expected_of_slides(scene, look) if seen is None else seen.complaints
-    few = too_few(scene.campaign.realizations, tally_of(scene).rule)
-    told = [*sentences(worth_saying, scene), seen.remarks if seen else "", few]
+    told = [*sentences(worth_saying, scene), seen.remarks if seen else "", too_few(scene.campaign)]
     for sentence in filter(None, told):
         say(f"Warning: {sentence}")
     return ExitCode.DONE

@@ -92,7 +92,7 @@ class CampaignDirectory:
         earlier = f"; {tally.done} are finished already" if tally.done else ""
         most, ours = counted(tally.maximum, "realization"), counted(ranks, "rank")
         say(f"{self.scene.title}: at most {most} on {ours}, in {self.path}{earlier}.")
-        if few := too_few(tally.maximum, tally.rule):
+        if few := too_few(self.scene.campaign):
             say(few)
 
     def close(self) -> None:

@@ -17,6 +17,11 @@ one strength everywhere foretells 36 %, 7 of 10 at 1.11 (19 %), 6 of 10 at 1.14 
 24 at 1.27 (4 %)."""
 
 
+def may_slide(look: FirstLook) -> bool:
+    """Whether realizations may slide, as far as factors of safety tell."""
+    return look.peak is None or look.slide_probability > 1.0 - CERTAIN
+
+
 def outlook(look: FirstLook, is_brittle: bool = False) -> str:
     """Say what the factors of safety let expect, in sentences; whether the slope is brittle says `is_brittle`."""
     if look.peak is None:

@@ -7,6 +7,7 @@ takes long to compute, so "what has finished by now" is a biased sample. The ans
 from dataclasses import dataclass
 from functools import cached_property
 
+from campaign.scene.sections import Campaign
 from campaign.statistics import proportions
 from campaign.statistics.intervals import Interval, kurtosis, mean_interval, variance_interval
 from campaign.statistics.outcomes import Outcomes
@@ -143,14 +144,17 @@ class Checkpoint:
         )
 
 
-def too_few(maximum: int, rule: StoppingRule) -> str:
-    """Say in a sentence that no campaign of at most `maximum` realizations can converge by its slides, "" if it can."""
-    needed = rule.minimum + (LOOKS_IN_A_ROW - 1) * rule.block
-    if maximum >= needed:
+def too_few(asked: Campaign) -> str:
+    """Say in a sentence that no campaign of so few realizations can converge by its slides, "" if it can.
+
+    With an accuracy the rule is not asked.
+    """
+    needed = asked.minimum + (LOOKS_IN_A_ROW - 1) * asked.block
+    if asked.accuracy is not None or asked.realizations >= needed:
         return ""
     return (
-        f"At most {counted(maximum, 'realization')} cannot converge where the slope slides: campaign.minimum = "
-        f"{rule.minimum} and campaign.block = {rule.block} ask for {needed:,} or more."
+        f"At most {counted(asked.realizations, 'realization')} cannot converge where the slope slides: "
+        f"campaign.minimum = {asked.minimum} and campaign.block = {asked.block} ask for {needed:,} or more."
     )
 
 

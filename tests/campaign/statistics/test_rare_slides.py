@@ -5,6 +5,7 @@ import pytest
 from tallies import summary_of
 
 from campaign.record import Status
+from campaign.scene import load_scene
 from campaign.seeds import BASELINE
 from campaign.statistics.stopping import StoppingRule, too_few
 from campaign.statistics.tally import Tally
@@ -20,6 +21,11 @@ def campaign(statuses, rule=RULE, runouts=None, baseline=9.0):
     for k, (runout, status) in enumerate(zip(runouts, statuses, strict=True)):
         tally.add(summary_of(k, runout, status))
     return tally
+
+
+def asked(*overrides):
+    """Return what a scene asks of its campaign."""
+    return load_scene("ma2023", ["campaign.minimum=100", "campaign.block=25", *overrides]).campaign
 
 
 def slides(probability, count, seed=3):
@@ -138,9 +144,10 @@ def test_a_slope_that_stands_is_not_asked_for_mean_and_variance(count, words):
 
 
 def test_too_few_realizations_are_told_before_they_are_computed():
-    """Two looks in a row, at 100 and at 125."""
-    assert too_few(125, RULE) == ""
-    assert too_few(124, RULE) == (
+    """Two looks in a row, at 100 and at 125; an accuracy is reached without the rule."""
+    assert too_few(asked("campaign.realizations=125")) == ""
+    assert too_few(asked("campaign.realizations=124", "campaign.accuracy=3 %")) == ""
+    assert too_few(asked("campaign.realizations=124")) == (
         "At most 124 realizations cannot converge where the slope slides: campaign.minimum = 100 and campaign.block = "
         "25 ask for 125 or more."
     )
