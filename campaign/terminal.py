@@ -69,6 +69,11 @@ def listing(names: list[str]) -> str:
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
+def as_sentence(clause: str) -> str:
+    """Return a clause with a capital and a full stop."""
+    return f"{clause[0].upper()}{clause[1:]}."
+
+
 def refresh(text: str) -> None:
     """Print text as the one thing on the screen; below the last one where the output is not a terminal.
 

@@ -8,6 +8,7 @@ import numpy as np
 from campaign.record import LOWER_BOUND, Status
 from campaign.scene import Scene
 from campaign.scene.sections import Receptor
+from campaign.simulation.flags import with_remedy
 from campaign.simulation.trial import Trial
 from campaign.terminal import listing
 
@@ -28,7 +29,7 @@ def _outcome(made: Trial) -> str:
         farthest = float(record.values["max_displacement"][-1])  # type: ignore[index]
         return f"The slope stands: nothing moves farther than {farthest:.2g} m."
     if not made.slides:
-        return f"The simulation fails: {record.reason}"
+        return f"The simulation fails: {with_remedy(record.reason, made.ground.scene)}"
     moves = "still moves at the end of the run" + (", behind its front" if record.status is Status.slid else "")
     how = f"comes to rest after {made.rest:.2g} s" if isfinite(made.rest) else moves
     is_hindered = record.status is Status.reached_wall

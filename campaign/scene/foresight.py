@@ -9,6 +9,7 @@ from campaign.scene.first_look import LONGEST_SLIDE, TYPICAL_SLIDE, FirstLook
 from campaign.scene.front import front_of_particles, front_of_the_slide
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
+from campaign.scene.more_ground import behind_crest
 from campaign.scene.sections import Campaign
 from campaign.scene.softening import is_brittle
 from campaign.scene.toe import misplaced_toe
@@ -137,8 +138,8 @@ def short_crest(scene: Scene, look: FirstLook) -> Complaint | None:
     if not any(circle.entry <= clear for circle in _driven(look)):
         return None
     key = "geometry.slope.crest" if scene.geometry.slope is not None else "geometry.surface"
-    text = "the critical slip circle begins at the wall on the left, which decides how much ground slides; add ground"
-    return Complaint(key, f"{text} behind the crest, about {rounded_up(look.height)} m of it")
+    text = "the critical slip circle begins at the wall on the left, which decides how much ground slides"
+    return Complaint(key, f"{text}; {behind_crest(scene)}")
 
 
 def thin_foundation(scene: Scene, look: FirstLook) -> Complaint | None:

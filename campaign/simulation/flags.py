@@ -1,24 +1,26 @@
 """Sentences about a slide that ran to its end and yet is not the slope's own."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from campaign.record import Value
+from campaign.scene import Scene, more_ground
 from campaign.simulation.detachment import CAME_APART
+from campaign.terminal import as_sentence
 from solver.model import Model
 from solver.walls import Walls
 
-CREST_WALL = (
-    "The slide has reached the wall behind the crest (x = 0 m), which hinders it; lengthen geometry.slope.crest, or "
-    "add ground there to geometry.surface."
-)
-AHEAD_WALL = (
-    "The slide has reached the wall ahead of it (x = {width:g} m), which hinders it; lengthen geometry.slope.plain, or "
-    "add ground there to geometry.surface."
-)
-ON_THE_BASE = (
-    "The slip surface runs along the fixed base under {share:.0%} of the sliding ground; deepen the foundation "
-    "(geometry.slope.foundation, or raise geometry.surface)."
-)
+CREST_WALL = "The slide has reached the wall behind the crest (x = 0 m), which hinders it."
+AHEAD_WALL = "The slide has reached the wall ahead of it (x = {width:g} m), which hinders it."
+ON_THE_BASE = "The slip surface runs along the fixed base under {share:.0%} of the sliding ground."
+
+REMEDIES: dict[str, Callable[[Scene], str]] = {
+    "the wall behind the crest": more_ground.behind_crest,
+    "the wall ahead of it": more_ground.ahead,
+    "along the fixed base": more_ground.below,
+    "left the grid on the left": more_ground.behind_crest,
+    "left the grid on the right": more_ground.ahead,
+}
+"""What a sentence on a realization tells of, and what can be done about it in the scene."""
 
 MUCH_CONTACT = 0.1
 """Share of the sliding ground that slips along the base, from which on the base and not the soil shapes the slide."""
@@ -38,6 +40,12 @@ def flags(model: Model, walls: Walls, values: Mapping[str, Value]) -> str:
         ON_THE_BASE.format(share=values["base_contact"]): on_the_base,
     }
     return " ".join(sentence for sentence, holds in sentences.items() if holds)
+
+
+def with_remedy(reason: str, scene: Scene) -> str:
+    """Return a reason, that of a failure too, with what can be done about it in the scene."""
+    remedies = (remedy(scene) for what, remedy in REMEDIES.items() if what in reason)
+    return " ".join([reason, *map(as_sentence, remedies)])
 
 
 def without_debris(reason: str) -> str:

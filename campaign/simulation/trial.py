@@ -13,7 +13,7 @@ from campaign.scene.foresight import longer_plain
 from campaign.scene.rules.numerics import LEAST_CELLS_OF_HEIGHT
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import Interrupted
-from campaign.simulation.flags import without_debris
+from campaign.simulation.flags import with_remedy, without_debris
 from campaign.simulation.ground import Ground, prepare
 from campaign.terminal import rounded_up
 
@@ -137,4 +137,4 @@ def short_run(scene: Scene, made: Trial) -> Complaint | None:
 
 def remarks(made: Trial) -> str:
     """Return sentences on what was in the way of the slide; "" if nothing was."""
-    return without_debris(made.record.reason)
+    return with_remedy(without_debris(made.record.reason), made.ground.scene)

@@ -1,5 +1,7 @@
 """`campaign validate` is a first look, and refuses what `campaign run` refuses."""
 
+import re
+
 import pytest
 
 from campaign import cli
@@ -78,8 +80,34 @@ def test_what_a_slide_has_shown_is_not_guessed(capsys):
 
 
 def test_a_slope_that_stands_is_said_to_stand(capsys):
+    """What time slides take is told as if there was one."""
     printed = tried(capsys, "soil.cohesion.mean=45 kPa")
     assert "The slope stands: nothing moves farther than 0.0" in printed
+    assert "The run ends at 10 s. Should the slope slide all the same: comparable slides come to rest after" in printed
+    assert "time Comparable slides" not in printed
+
+
+def test_a_slide_at_a_wall_is_told_as_a_lower_bound_with_the_key_that_moves_the_wall(capsys):
+    """Without the wall its front stops 10.8 m beyond the toe."""
+    printed = tried(capsys, "geometry.slope.plain=8 m")
+    assert re.search(
+        r"its front is at least \d\.\d+ m beyond the toe, at x = 4\d\.?\d* m, and a wall of the model hindered it\.",
+        printed,
+    )
+    reached = "Warning: The slide has reached the wall ahead of it (x = 43 m), which hinders it."
+    assert f"{reached} Lengthen geometry.slope.plain." in printed
+    profile = 'geometry={surface=[["0 m","19 m"],["20 m","19 m"],["35 m","4 m"],["43 m","4 m"]]}'
+    road = 'receptor=[{name="road", x="40 m"}, {name="house", x="42.9 m"}]'
+    printed = tried(capsys, profile, road)
+    assert "It reaches road (x = 40 m), by then not house (x = 42.9 m)." in printed
+    assert f"{reached} Continue geometry.surface beyond x = 43 m." in printed
+    assert "geometry.slope" not in printed
+
+
+def test_too_few_realizations_are_told_where_they_are_what_ends_the_campaign(capsys):
+    few = ["--set", "campaign.realizations=20"]
+    assert "At most 20 realizations cannot converge" in answer(capsys, "ma2023", *few)[1].out
+    assert "cannot converge" not in answer(capsys, "ma2023", *few, "--accuracy", "3 %")[1].out
 
 
 NOT_RUN = [

@@ -51,7 +51,7 @@ def test_differing_receptors_are_told_in_their_units() -> None:
         ('name = "river"\nx = ["40 m", "40 m"]', "or a single place without brackets"),
         ('name = "river"\nx = ["40 m"]', "or both ends of a range"),
         ('name = "river"\nx = "75 m"', 'x (slope.toml, line {x}, receptor 2) is "75 m", but it must lie between'),
-        ('name = "river"\nx = ["-1 m", "3 m"]', "between the walls, at 0 m and 75 m; move it, or widen the ground."),
+        ('name = "river"\nx = ["-1 m", "3 m"]', "; move it, or add ground behind the crest, and as much to every x."),
         ('name = "road"\nx = "43 m"', 'is "road", but receptor 1 has that name, too.'),
         ('name = " "\nx = "43 m"', "it must be a line of text"),
         ('x = "43 m"', 'line {head}, receptor 2) has no name; add it, for instance name = "road".'),
@@ -83,7 +83,7 @@ def test_other_mistakes_hide_no_receptor_off_the_ground(tmp_path: Path) -> None:
     assert len(told) == 5
     assert [each for each in told if "must lie between the walls" in each] == [
         f"receptor.x (slope.toml, line {line_of(f'x = {place}', path)}, receptor {number}) is {place}, but it must lie "
-        "between the walls, at 0 m and 75 m; move it, or widen the ground."
+        "between the walls, at 0 m and 75 m; move it, or lengthen geometry.slope.plain."
         for number, place in ((2, '"80 m"'), (3, '"90 m"'))
     ]
 
@@ -93,7 +93,7 @@ def test_walls_of_a_surface_bound_receptors_as_well() -> None:
     tables = EXAMPLE.tables | {"geometry": {"surface": SURFACE}}
     assert found_in(tables | receptor) == []
     receptor["receptor"][0]["x"] = "75.5 m"
-    assert "at 0 m and 75 m" in found_in(tables | receptor)[0]
+    assert "at 0 m and 75 m; move it, or continue the surface." in found_in(tables | receptor)[0]
 
 
 def test_one_pair_of_brackets_is_explained(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ import pytest
 from campaign import load_scene
 from campaign.record import Status
 from campaign.seeds import BASELINE
+from campaign.simulation.flags import AHEAD_WALL, CREST_WALL, ON_THE_BASE, with_remedy
 from campaign.simulation.ground import prepare
 
 WEAK = ["soil.cohesion.residual=4 kPa", "soil.friction_angle.residual=2 deg"]
@@ -34,8 +35,7 @@ def test_a_slide_that_the_wall_ahead_stops_says_so(plain, runout):
     record = deterministic(f"geometry.slope.plain={plain}")
     assert record.status is Status.reached_wall
     assert record.values["final_runout"] == pytest.approx(runout, abs=0.02)
-    assert "lengthen geometry.slope.plain" in record.reason
-    assert "crest" not in record.reason
+    assert record.reason == AHEAD_WALL.format(width=35.0 + float(plain.partition(" ")[0]))
 
 
 def test_a_slide_that_the_wall_behind_the_crest_holds_says_so():
@@ -43,8 +43,7 @@ def test_a_slide_that_the_wall_behind_the_crest_holds_says_so():
     record = deterministic("geometry.slope.crest=4 m", *WEAK)
     assert record.status is Status.reached_wall
     assert record.values["final_runout"] == pytest.approx(11.46, abs=0.02)
-    assert "lengthen geometry.slope.crest" in record.reason
-    assert "plain" not in record.reason
+    assert record.reason == CREST_WALL
 
 
 def test_a_slip_surface_along_the_base_is_flagged_and_no_failure():
@@ -58,4 +57,30 @@ def test_a_slip_surface_along_the_base_is_flagged_and_no_failure():
     record = deterministic("geometry.slope.foundation=2 m", "geometry.slope.crest=40 m", *clay)
     assert record.status is Status.slid
     assert record.values["base_contact"] > 0.3
-    assert "deepen the foundation" in record.reason
+    assert "The slip surface runs along the fixed base under" in record.reason
+
+
+PROFILE = 'geometry={surface=[["0 m","19 m"],["20 m","19 m"],["35 m","4 m"],["43 m","4 m"]]}'
+LEFT = "A particle left the grid on the {side} at 3.90 s; widen the ground there."
+
+
+@pytest.mark.parametrize(
+    ("reason", "key", "point"),
+    [
+        (CREST_WALL, "Lengthen geometry.slope.crest", "Add ground on the left of geometry.surface"),
+        (AHEAD_WALL.format(width=43.0), "Lengthen geometry.slope.plain.", "Continue geometry.surface beyond x = 43 m."),
+        (ON_THE_BASE.format(share=0.4), "Deepen geometry.slope.foundation.", "added to the elevation of each point"),
+        (LEFT.format(side="right"), "Lengthen geometry.slope.plain.", "Continue geometry.surface beyond x = 43 m."),
+        (LEFT.format(side="left"), "Lengthen geometry.slope.crest", "Add ground on the left of geometry.surface"),
+    ],
+)
+def test_what_can_be_done_about_it_is_told_in_the_keys_of_the_scene(reason, key, point):
+    for scene, remedy, other in (
+        (load_scene("ma2023"), key, "geometry.surface"),
+        (load_scene("ma2023", [PROFILE]), point, "geometry.slope"),
+    ):
+        told = with_remedy(reason, scene)
+        assert told.startswith(f"{reason} ")
+        assert remedy in told
+        assert other not in told
+    assert with_remedy("A particle has no mass.", load_scene("ma2023")) == "A particle has no mass."
