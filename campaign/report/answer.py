@@ -11,12 +11,13 @@ from campaign.report import estimates
 from campaign.report.aimed import from_all_models, is_aimed
 from campaign.report.cut_short import Cause, at_least, causes, in_one_clause
 from campaign.results.results import Results
+from campaign.simulation.flags import with_remedy
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import results_to_bound
 from campaign.statistics.stopping import RARE
 from campaign.statistics.total import has_mesh_error
-from campaign.statistics.wording import chance, chance_of_slide, chances, estimated_chance, metres
-from campaign.terminal import counted
+from campaign.statistics.wording import chance, chance_of_slide, chances, estimated_chance, metres, so_far
+from campaign.terminal import as_sentence, counted
 
 OUTCOMES = {
     Status.slid: "slid, and the front came to rest",
@@ -39,7 +40,7 @@ RARER = 0.01
 
 
 class Outcome(NamedTuple):
-    """How many realizations ended in one way, and why they say they failed."""
+    """How many realizations ended in one way, and what is said of some of them, of the most first."""
 
     realizations: int
     meaning: str
@@ -58,26 +59,35 @@ def answer(results: Results) -> str:
 
 
 def outcomes(results: Results) -> list[Outcome]:
-    """Return how the realizations ended, with the distinct reasons of failures."""
-    reasons, status = results.data["reason"].values, results.data["status"].values
+    """Return how the realizations ended, with the distinct reasons of failures and remarks on slides."""
     return [
-        Outcome(count, OUTCOMES[each], alike(reasons[status == int(each)]))
+        Outcome(count, OUTCOMES[each], _told_of(results, each, count))
         for each, count in results.by_status().items()
         if count
     ]
 
 
-def alike(reasons: Iterable[object]) -> list[str]:
-    """Return one of the reasons that differ in times and shares alone, the most frequent kind first."""
+def _told_of(results: Results, status: Status, count: int) -> list[str]:
+    """Return what is said of realizations that ended in one way, and of how many, if that is not all."""
+    kinds = alike(results.data["reason"].values[results.has_status([status])])
+    return [
+        f"{'' if n == count else f'In {n:,} of them: '}{with_remedy(reason, results.scene)}"
+        for reason, n in kinds.items()
+    ]
+
+
+def alike(reasons: Iterable[object]) -> dict[str, int]:
+    """Return one of the reasons that differ in times and shares alone, and how many these are, the most first."""
     kinds: dict[str, list[str]] = {}
     for reason in filter(None, map(str, reasons)):
         kinds.setdefault(VARYING.sub("", reason), []).append(reason)
-    return [kind[0] for kind in sorted(kinds.values(), key=len, reverse=True)]
+    return {kind[0]: len(kind) for kind in sorted(kinds.values(), key=len, reverse=True)}
 
 
 def why_failed(results: Results) -> str:
-    """Return the most frequent reason of failures, "" without one."""
-    return next(iter(alike(results.data["reason"].values[results.has_failed])), "")
+    """Return the most frequent reason of failures, with what can be done about it, "" without one."""
+    reasons = alike(results.data["reason"].values[results.has_failed])
+    return with_remedy(next(iter(reasons)), results.scene) if reasons else ""
 
 
 def _chance(results: Results) -> str:
@@ -152,7 +162,7 @@ def _cut_short(results: Results, found: list[Cause]) -> str:
     if results.outcomes.bound_the_mean:
         added = float(np.sum(results.slide_runouts[results.outcomes.is_cut_short])) / results.outcomes.slides
         these = "it" if results.outcomes.cut_short == 1 else "they"
-        return f"{why[0].upper()}{why[1:]}: had {these} come twice as far, the mean would be {added:.2f} m larger."
+        return as_sentence(f"{why}: had {these} come twice as far, the mean would be {added:.2f} m larger")
     return f"This is a lower bound, and nothing bounds the mean from above: {why}. {remedies}"
 
 
@@ -162,10 +172,10 @@ def _spread(results: Results) -> str:
         return ""
     is_bounded, least = results.outcomes.bound_the_mean, "at least " if results.outcomes.cut_short else ""
     interval = f" ({metres(std)})" if std.is_known and is_bounded else ""
-    so_far = "" if is_bounded else ", as far as they came,"
+    came = "" if is_bounded else f"{so_far(results.outcomes)},"
     of_shortest = "at least " if results.outcomes.is_cut_short[runouts.argmin()] else ""
     return (
-        f"Single slides{so_far} scatter by a standard deviation of {std.estimate:.2f} m{interval}; the shortest ran "
+        f"Single slides{came} scatter by a standard deviation of {std.estimate:.2f} m{interval}; the shortest ran "
         f"{of_shortest}{runouts.min():.2f} m, the longest {least}{runouts.max():.2f} m."
     )
 

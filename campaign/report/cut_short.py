@@ -4,8 +4,9 @@ from typing import NamedTuple
 
 from campaign.record import LOWER_BOUND, RealizationSummary, Status
 from campaign.results.results import Results
+from campaign.scene import more_ground
 from campaign.simulation.flags import AHEAD_WALL, CREST_WALL
-from campaign.terminal import counted
+from campaign.terminal import as_sentence, counted
 
 WALLS, END = "Walls", "End of the run"
 """What cuts slides short."""
@@ -35,9 +36,9 @@ class Cause(NamedTuple):
 def causes(results: Results) -> list[Cause]:
     """Return why slides were cut short; nothing where none was."""
     hindered, unsettled = results.outcomes.hindered, results.by_status()[Status.not_settled]
-    slides, (wall, keys) = counted(results.outcomes.slides, "slide"), _wall(results)
+    slides, (wall, remedy) = counted(results.outcomes.slides, "slide"), _wall(results)
     found = [
-        Cause(WALLS, hindered, f"{wall} stopped {hindered:,} of {slides}", f"Lengthen the ground there ({keys})."),
+        Cause(WALLS, hindered, f"{wall} stopped {hindered:,} of {slides}", remedy),
         Cause(
             END,
             unsettled,
@@ -59,21 +60,18 @@ def at_least(run: RealizationSummary) -> str:
 
 
 def _wall(results: Results) -> tuple[str, str]:
-    """Say which wall of the model was in the way, or which of them, and which keys move them."""
+    """Say which wall of the model was in the way, or which of them, and what moves them away."""
     reasons = [str(each) for each in results.data["reason"].values[results.has_status([Status.reached_wall])]]
     walls = {
-        "behind the crest": (CREST_WALL, "geometry.slope.crest"),
-        "ahead of the slope": (AHEAD_WALL, "geometry.slope.plain"),
+        "behind the crest": (CREST_WALL, more_ground.behind_crest),
+        "ahead of the slope": (AHEAD_WALL, more_ground.ahead),
     }
     met = {
-        where: key
-        for where, (sentence, key) in walls.items()
+        where: remedy(results.scene)
+        for where, (sentence, remedy) in walls.items()
         if any(sentence.partition(" (x")[0] in each for each in reasons)
     }
-    keys = " and ".join(met.values()) if met and results.scene.geometry.slope is not None else ""
-    return f"the wall {' or that '.join(met)}" if met else "a wall of the model", keys or _ground(results)
-
-
-def _ground(results: Results) -> str:
-    """Return the key of the ground."""
-    return "geometry.surface" if results.scene.geometry.slope is None else "geometry.slope"
+    if not met:
+        return "a wall of the model", "Lengthen the ground there."
+    remedies = " ".join(map(as_sentence, met.values()))
+    return f"the wall {' or that '.join(met)}", remedies

@@ -81,15 +81,11 @@ def table(curves: Curves) -> list[Row]:
     return [Row(f"{distance:g} m", curve.words(distance), given.words(distance)) for distance in _round(curve)]
 
 
-def data(curves: Curves) -> dict[str, list[float]]:
-    """Return both curves for the page's script; probabilities in per cent."""
+def data(curves: Curves) -> dict[str, list[float] | list[str]]:
+    """Return both curves for the page's script: probabilities in the words of the table."""
     shares = {"all": curves.all, "sliding": curves.given_sliding}
-    columns = {
-        f"{name}_{part}": np.round(100.0 * getattr(each, part), 2).tolist()
-        for name, each in shares.items()
-        for part in ("estimate", "lower", "upper")
-    }
-    return {"distance": np.round(curves.all.distance, 3).tolist()} | columns
+    words = {name: [curve.words(distance) for distance in curve.distance] for name, curve in shares.items()}
+    return {"distance": np.round(curves.all.distance, 3).tolist()} | words
 
 
 def round_step(least: float) -> float:

@@ -13,7 +13,7 @@ from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import failure_bounds
 from campaign.statistics.total import has_mesh_error
-from campaign.statistics.wording import chance, chances, estimated_chance, metres
+from campaign.statistics.wording import chance, chances, estimated_chance, metres, so_far
 from campaign.terminal import counted
 
 NOT_ESTIMATED = "not estimated"
@@ -74,15 +74,15 @@ def _aimed(results: Results) -> list[Row]:
 
 def _runout(results: Results) -> list[Row]:
     mean, std, n = estimates.mean_runout(results), estimates.std_runout(results), str(results.outcomes.slides)
-    so_far = "" if results.outcomes.bound_the_mean else ", as far as they came"
+    came = so_far(results.outcomes)
     if mean.n == 0:
         return []
     total, spread = estimates.total_runout(results), metres(std) if std.is_known else ""
     holds = "sampling and mesh" if has_mesh_error(results.discretisation) else "sampling alone"
     return [
         Row("Total", f"mean run-out of a slide, {holds}", f"{total.estimate:.2f} m", metres(total), n),
-        Row("Sampling", f"mean run-out of a slide{so_far}", f"{mean.estimate:.2f} m", metres(mean), n),
-        Row("Sampling", f"standard deviation of a slide{so_far}", _known(std.estimate, ".2f", " m"), spread, n),
+        Row("Sampling", f"mean run-out of a slide{came}", f"{mean.estimate:.2f} m", metres(mean), n),
+        Row("Sampling", f"standard deviation of a slide{came}", _known(std.estimate, ".2f", " m"), spread, n),
     ]
 
 
@@ -112,18 +112,20 @@ def _failures(results: Results) -> list[Row]:
     failed, given, distance = int(np.count_nonzero(results.has_failed)), results.outcomes, results.deterministic
     if not failed or not given.usable:
         return []
-    counted = {"probability of a slide": given.slides}
+    rows = [_whatever_happened("probability of a slide", given.slides, given.usable, failed)]
     if distance > 0:
-        counted[f"probability of more than {distance:.2f} m"] = given.beyond(distance)
-    return [_whatever_failed(name, count, given.usable, failed) for name, count in counted.items()]
+        of_farther = given.beyond(distance), given.usable, failed, given.undecided(distance)
+        rows.append(_whatever_happened(f"probability of more than {distance:.2f} m", *of_farther))
+    return rows
 
 
-def _whatever_failed(name: str, count: int, usable: int, failed: int) -> Row:
-    lowest, highest = failure_bounds(count, usable, failed)
-    bounds = chances(Interval((lowest + highest) / 2, lowest, highest, usable))
-    return Row(
-        "Failures", f"{name}, whatever the failed would have done", f"{failed} failed", bounds, str(usable + failed)
-    )
+def _whatever_happened(name: str, count: int, usable: int, failed: int, undecided: int = 0) -> Row:
+    """Return what a share of all realizations may be: slides cut short before they count are as unknown as failures."""
+    lowest, highest = failure_bounds(count, usable - undecided, failed + undecided)
+    bounds = chances(Interval(lowest, lowest, highest, usable))
+    also, them = (" or cut short", f", {undecided} cut short") if undecided else ("", "")
+    asked = f"{name}, whatever the failed{also} would have done"
+    return Row("Failures", asked, f"{failed} failed{them}", bounds, str(usable + failed))
 
 
 def _unknown_to_the_mesh(results: Results) -> list[Row]:

@@ -1,10 +1,8 @@
 """The numbers of the answer with their intervals, a function for each: for words, tables and figures alike."""
 
-import numpy as np
-
 from campaign.results.results import Results
 from campaign.statistics import proportions
-from campaign.statistics.intervals import Interval, mean_interval, quantile_interval, std_interval
+from campaign.statistics.intervals import Interval, is_least_quantile, mean_interval, quantile_interval, std_interval
 from campaign.statistics.total import total_interval, total_mean
 
 FAR = 0.95
@@ -41,8 +39,7 @@ def quantile_runout(results: Results, share: float) -> Interval:
 
 def is_least(results: Results, share: float) -> bool:
     """Whether that distance would be larger, had slides that were cut short come farther."""
-    above = np.quantile(results.slide_runouts, share, method="higher")
-    return bool(np.any(results.outcomes.is_cut_short & (results.slide_runouts <= above)))
+    return is_least_quantile(results.slide_runouts, share, results.outcomes.is_cut_short)
 
 
 def total_quantile(results: Results, share: float) -> Interval:

@@ -98,7 +98,7 @@ def _runout(results: Results, name: str, share: float) -> Tile:
 
 def _remark(results: Results, total: Interval, share: float) -> str:
     ahead = goes_ahead(results, share)
-    raised = f"ground is raised as far as {ahead:.1f} m" if ahead is not None else ""
+    raised = f"ground is raised {ahead}" if ahead else ""
     return "; ".join(filter(None, [_bounds_known(results, total, share), raised]))
 
 
@@ -118,10 +118,12 @@ def _bounds_known(results: Results, total: Interval, share: float) -> str:
 
 def _reach(each: Reach) -> Tile:
     front = each.front
-    open_ends = front.open_bounds[1] > front.interval.upper
-    cut_short = f"up to {chance(front.open_bounds[1])} if those cut short got there" if open_ends else ""
+    most = front.open_bounds[1]
+    lost = (
+        f"up to {chance(most)} if those that failed or were cut short got there" if most > front.interval.upper else ""
+    )
     pushed = f"any moved ground: {estimated_chance(each.moved.interval)}, {chance_of_slide(each.moved.interval)}"
-    remark = "; ".join(filter(None, [cut_short, pushed if each.is_pushed_farther else ""]))
+    remark = "; ".join(filter(None, [lost, pushed if each.is_pushed_farther else ""]))
     value = estimated_chance(front.interval)
     if front.interval.estimate == 0 and each.is_pushed_farther:
         value = f"front {value}, moved ground {estimated_chance(each.moved.interval)}"

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from campaign.fields.properties import BY_NAME, value_of
+from campaign.record import Status
 from campaign.results.results import Results
 from campaign.results.sensitivity import effects_of, map_of, ranking_of
 from campaign.scene.inputs import BY_KEY, MORE, raised, shown
@@ -51,6 +52,7 @@ def sentences(results: Results) -> list[str]:
         _followed("Whether the slope slides", ranking_of(results.data, "slide"), named),
         _followed("The run-out of a slide", ranking_of(results.data, "runout"), named),
         _mapped(results, map_of(results.data)),
+        _left_out(results, ranking_of(results.data, "runout")),
     ]
     return [sentence for sentence in told if sentence] or [_nothing(results)]
 
@@ -156,6 +158,21 @@ def _mapped(results: Results, found: SensitivityMap | None) -> str:
     )
 
 
+def _left_out(results: Results, ranking: Ranking | None) -> str:
+    """Say which slides have no part in what the soil makes of the run-out, and which have less than they might."""
+    given, unsettled = results.outcomes, results.by_status()[Status.not_settled]
+    told = []
+    if ranking is not None and given.slides - ranking.correlation[0].n >= given.hindered > 0:
+        told.append(
+            f"What the soil makes of the run-out is told without the {given.hindered:,} of "
+            f"{counted(given.slides, 'slide')} that a wall of the model stopped; with their whole run-outs it may be "
+            "another."
+        )
+    if ranking is not None and unsettled:
+        told.append(f"{counted(unsettled, 'slide')} that still moved at the end count as far as they came.")
+    return " ".join(told)
+
+
 def _at(results: Results, place: tuple[np.intp, ...], change: float) -> str:
     number, row, column = place
     x, y = float(results.data["box_x"][column]), float(results.data["box_y"][row])
@@ -168,10 +185,12 @@ def _share(explained: float) -> str:
 
 def _nothing(results: Results) -> str:
     """Say why nothing is known of the inputs."""
-    slides = results.outcomes.slides
-    soil = f"It takes {sensitivity.FEWEST} slides to say which property of the soil matters, and there are {slides:,}"
+    slides, stopped = results.outcomes.unhindered, results.outcomes.hindered
+    which = " that no wall stops" if stopped else ""
+    matters = "which property of the soil matters"
+    soil = f"It takes {sensitivity.FEWEST} slides{which} to say {matters}, and there are {slides:,}"
     if slides >= sensitivity.FEWEST:
-        soil = f"The {counted(slides, 'slide')} do not say which property of the soil matters"
+        soil = f"The {counted(slides, 'slide')}{which} do not say {matters}"
     return f"{soil}; {_why_no_effects(results)}."
 
 

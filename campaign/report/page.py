@@ -9,7 +9,7 @@ import numpy as np
 
 from campaign.errors import RefusalError
 from campaign.files import write_atomically
-from campaign.report import distances, headline, inputs, places
+from campaign.report import distances, headline, inputs, movement, places
 from campaign.report.answer import answer, outcomes
 from campaign.report.chapters import appendix, chapters
 from campaign.report.choices import modelling_choices
@@ -111,12 +111,13 @@ def _tables(results: Results, curves: Curves) -> dict[str, Any]:
     slides, peak = results.outcomes.slides, look_at(results.scene).peak
     return {
         "factor": None if peak is None else f"{peak.factor:.2f}",
-        "movement": places.movement(results) if slides else places.stillness(results),
+        "movement": movement.movement(results) if slides else movement.stillness(results),
         "distances": distances.table(curves),
         "distance_data": distances.data(curves) if slides else {},
         "toe": f"{results.data.attrs['toe_x']:g}",
         "sometimes": 0 < slides < results.outcomes.usable,
         "places": places.places(results) if slides else [],
+        "ended_or_was_there": places.ended_or_was_there(results) if slides and results.scene.receptor else "",
         "budget": error_budget(results),
         "has_mesh_error": results.outcomes.slides > 0 and has_mesh_error(results.discretisation),
         "input_sentences": inputs.sentences(results),

@@ -1,4 +1,4 @@
-"""What the page says in tables: how the ground moves, and what comes to the places asked about."""
+"""What comes to the places asked about, as the page says it."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -7,35 +7,20 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from campaign.report.wording import bounds, number
+from campaign.record import Status
+from campaign.report.distribution import Distribution, distribution
 from campaign.results.results import Results
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.sections import Receptor
-from campaign.statistics.intervals import Interval, Sample, quantile_interval
 from campaign.statistics.receptors import (
     AHEAD,
     EFFECTS,
-    QUANTILES,
     REACHED,
     ReceptorEstimate,
     receptor_estimates,
 )
 from campaign.statistics.wording import chances, estimated_chance
-from campaign.terminal import counted
-
-MOVEMENT = {
-    "sliding_volume": "ground that moves by more than {displaced:g} m, per metre of width",
-    "retrogression": "length lost behind the crest, moved by more than {failed:g} m",
-    "influence_distance": "length behind the crest that moves by more than {displaced:g} m",
-}
-"""Scalars of a slide, and what they are called with the criteria of `slide`."""
-
-BEHIND_CREST = ("retrogression", "influence_distance")
-
-REST = "time from release to rest"
-
-STILL_MOVING = 1e99
-"""Time in s that stands for a rest after the end of the run, so that quantiles know of it."""
+from campaign.terminal import counted, listing
 
 ARRIVALS = {
     "moved_ground_arrival": "arrival of any moved ground after the release",
@@ -45,15 +30,8 @@ ARRIVALS = {
 
 RISE = "receptor_deposit"
 
-
-class Distribution(NamedTuple):
-    """A line of a table: a quantity with its median and its 95 % quantile, each with an interval."""
-
-    name: str
-    median: str
-    median_interval: str
-    far: str
-    far_interval: str
+NEAR_A_WALL = 5.0
+"""In cells: distance of a place from a wall, up to which the wall has a part in what is seen there."""
 
 
 class Reach(NamedTuple):
@@ -81,6 +59,8 @@ class Place(NamedTuple):
         In which slides ground is pushed or thrown here ahead of the front, "" if in none.
     ahead : list of Distribution
         What that ground does.
+    thrown_back : str
+        That a wall of the model has a part in it, "" if none has.
     """
 
     name: str
@@ -90,58 +70,7 @@ class Place(NamedTuple):
     effects: list[Distribution]
     pushed: str
     ahead: list[Distribution]
-
-
-def movement(results: Results) -> list[Distribution]:
-    """Return how the ground moves in the slides."""
-    rows = [
-        distribution(
-            name.format_map(dict(results.scene.slide)) + _at_least(results, quantity),
-            results.of_slides(quantity),
-            results.data[quantity].units,
-            results.confidence,
-        )
-        for quantity, name in MOVEMENT.items()
-        if np.isfinite(results.of_slides(quantity)).any()
-    ]
-    return [*rows, _rest(results)] if results.outcomes.slides else rows
-
-
-def _at_least(results: Results, quantity: str) -> str:
-    """Say in how many slides there would be more of a quantity, "" if in none.
-
-    Ground behind the front may still move at the end, and what moves behind the crest may reach the wall there.
-    """
-    values, moves = results.of_slides(quantity), np.isnan(results.of_slides("settle_time"))
-    wall = surface_of(results.scene.geometry).crest_x if quantity in BEHIND_CREST else np.inf
-    at_wall = values > wall - 0.5 * results.scene.numerics.cell
-    causes = {
-        "to the wall of the model": np.isfinite(values) & at_wall,
-        "still moving at the end": np.isfinite(values) & moves & ~at_wall,
-    }
-    told = [f"in {counted(n, 'slide')} {why}" for why, which in causes.items() if (n := int(np.count_nonzero(which)))]
-    return f" (at least: {' and '.join(told)})" if told else ""
-
-
-def _rest(results: Results) -> Distribution:
-    """Return when slides come to rest; those that still move at the end do so later than all others."""
-    times = np.nan_to_num(results.of_slides("settle_time"), nan=STILL_MOVING)
-    columns: list[str] = []
-    for share in QUANTILES:
-        interval = quantile_interval(times, share, results.confidence)
-        estimate, lower, upper = (value if value < STILL_MOVING / 1e6 else np.nan for value in interval[:3])
-        is_later = np.isnan(estimate)
-        columns += ["later than the end" if is_later else number(estimate, "s")]
-        columns += ["" if is_later else bounds(Interval(estimate, lower, upper, interval.n), "s")]
-    return Distribution(REST, *columns)
-
-
-def stillness(results: Results) -> list[Distribution]:
-    """Return how far the ground moved where nothing slid; nothing if all failed."""
-    if not results.outcomes.usable:
-        return []
-    largest = results.data["max_displacement"].values[~results.has_failed, -1]
-    return [distribution("largest movement of any ground", 1000.0 * largest, "mm", results.confidence)]
+    thrown_back: str
 
 
 def reach_estimates(results: Results) -> list[Reach]:
@@ -158,14 +87,25 @@ def places(results: Results) -> list[Place]:
     return [_place(results, receptor, reach) for receptor in results.scene.receptor]
 
 
-def distribution(name: str, values: Sample, unit: str, confidence: float) -> Distribution:
-    """Return median and 95 % quantile of the finite ones of some values."""
-    known = values[np.isfinite(values)]
-    columns: list[str] = []
-    for share in QUANTILES:
-        interval = quantile_interval(known, share, confidence)
-        columns += [number(interval.estimate, unit), bounds(interval, unit)]
-    return Distribution(name, *columns)
+def ended_or_was_there(results: Results) -> str:
+    """Say why a place and the table of distances may count other slides, "" where they count the same."""
+    if results.front == "tip":
+        return "The table is of the front-most particle; what reaches a place is the front of the mass, behind it."
+    toe_x = float(results.data.attrs["toe_x"])
+    came_back = {
+        receptor.name: int(np.count_nonzero(_has_front(results, receptor) & (toe_x + results.runouts < receptor.x[0])))
+        for receptor in results.scene.receptor
+        if receptor.x[0] > toe_x
+    }
+    told = [f"{n:,} came back from {name}" for name, n in came_back.items() if n]
+    if not told:
+        return ""
+    return f"The table counts fronts that ended beyond a distance, a place those that were ever there: {listing(told)}."
+
+
+def _has_front(results: Results, receptor: Receptor) -> NDArray[np.bool_]:
+    """Whether the front of a slide was ever at a receptor, (realization,)."""
+    return np.asarray(results.data["front_reaches"].sel(receptor=receptor.name).values == 1.0)
 
 
 def _place(results: Results, receptor: Receptor, reach: list[ReceptorEstimate]) -> Place:
@@ -176,14 +116,29 @@ def _place(results: Results, receptor: Receptor, reach: list[ReceptorEstimate]) 
         if each.receptor == name
     ]
     data = results.data.sel(receptor=name)
-    with_front, with_ahead = data["front_reaches"].values == 1.0, data["receptor_ahead_depth"].values > 0.0
+    with_front, with_ahead = _has_front(results, receptor), data["receptor_ahead_depth"].values > 0.0
     where = f"x = {near:g} m" if near == far else f"x = {near:g} to {far:g} m"
     effects = _distributions(data, ARRIVALS | EFFECTS, with_front, results.confidence)
     ahead = _distributions(data, AHEAD, with_ahead, results.confidence)
     alone = {RISE: f"{EFFECTS[RISE]} where the front does not come"}
     ahead += _distributions(data, alone, with_ahead & ~with_front, results.confidence)
     slides, pushed = int(np.count_nonzero(with_front)), _pushed(with_ahead, with_front)
-    return Place(name, where, probabilities, slides, effects, pushed, ahead)
+    thrown_back = _thrown_back(results, receptor, with_front | with_ahead)
+    return Place(name, where, probabilities, slides, effects, pushed, ahead, thrown_back)
+
+
+def _thrown_back(results: Results, receptor: Receptor, comes: NDArray[np.bool_]) -> str:
+    """Say that a wall near a receptor has stopped slides that come there, "" if none has."""
+    near, far = receptor.x
+    away = min(near, surface_of(results.scene.geometry).width - far)
+    stopped = int(np.count_nonzero(comes & results.has_status([Status.reached_wall])))
+    if not stopped or away > NEAR_A_WALL * results.scene.numerics.cell:
+        return ""
+    of_those = f"{stopped:,} of the {counted(int(np.count_nonzero(comes)), 'slide')} that come here"
+    return (
+        f"A wall of the model, {away:g} m from here, stopped {of_those}. Ground piles up at it and is thrown back, so "
+        "that depths, velocities and pressures are not those of the slope alone."
+    )
 
 
 def _pushed(with_ahead: NDArray[np.bool_], with_front: NDArray[np.bool_]) -> str:

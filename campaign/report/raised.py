@@ -3,7 +3,7 @@
 import numpy as np
 
 from campaign.results.results import Results
-from campaign.statistics.intervals import Sample
+from campaign.statistics.intervals import Sample, is_least_quantile
 
 CLEARLY_FARTHER = 2.0
 """In cells: how much farther than their fronts the ground must be raised in half of the slides to be told."""
@@ -22,10 +22,16 @@ def raised_reach(results: Results) -> Sample:
     return np.asarray(np.max(np.where(rise >= least_rise(results), ahead, 0.0), axis=1))
 
 
-def goes_ahead(results: Results, share: float) -> float | None:
-    """Return within how many m of the toe the ground is raised in a share of the slides, None where fronts tell it."""
+def goes_ahead(results: Results, share: float) -> str:
+    """Say how far from the toe the ground is raised in a share of the slides, "as far as 62.5 m"; "" if fronts tell it.
+
+    Slides that were cut short would have raised it farther.
+    """
     if not results.outcomes.slides:
-        return None
+        return ""
     raised = raised_reach(results)
     farther = float(np.median(raised) - np.median(results.slide_runouts))
-    return float(np.quantile(raised, share)) if farther > CLEARLY_FARTHER * results.scene.numerics.cell else None
+    if farther <= CLEARLY_FARTHER * results.scene.numerics.cell:
+        return ""
+    least = "at least " if is_least_quantile(raised, share, results.outcomes.is_cut_short) else ""
+    return f"{least}as far as {np.quantile(raised, share):.1f} m"

@@ -10,7 +10,7 @@ from campaign.report.raised import goes_ahead, least_rise
 from campaign.results.results import Results
 from campaign.statistics.doubts import detached_fronts, doubts
 from campaign.statistics.outcomes import FEW
-from campaign.terminal import counted
+from campaign.terminal import as_sentence, counted
 
 
 def reasons_for_doubt(results: Results) -> list[str]:
@@ -56,17 +56,17 @@ def _hindered(results: Results) -> str:
     if results.outcomes.hindered <= FEW * results.outcomes.slides:
         return ""
     (stopped,) = (each.told for each in causes(results) if each.source == WALLS)
-    return f"{stopped[0].upper()}{stopped[1:]}, which would have come farther."
+    return as_sentence(f"{stopped}, which would have come farther")
 
 
 def _ahead(results: Results) -> str:
     """Say how far ground is raised ahead of the fronts."""
     half, far = goes_ahead(results, 0.5), goes_ahead(results, estimates.FAR)
-    if half is None or far is None:
+    if not half:
         return ""
     rise = f"{least_rise(results):.2g} m or more (half a cell, the least that the mesh can tell)"
     return (
-        f"Ground is raised by {rise} as far as {half:.1f} m from the toe in half of the slides, and {far:.1f} m in "
+        f"Ground is raised by {rise} {half} from the toe in half of the slides, and {far} in "
         f"{100 * estimates.FAR:g} % of them, farther than their fronts come: slid ground from upslope of the toe, the "
         "front, pushes and throws other ground ahead. Whether any of it reaches a place is told as moved ground."
     )

@@ -33,8 +33,8 @@ def summary(results: Results) -> str:
 
 
 def _ended(outcome: Outcome) -> str:
-    """Return how realizations ended, and the most frequent reason."""
-    return f"{outcome.meaning}: {outcome.reasons[0]}" if outcome.reasons else outcome.meaning
+    """Return how realizations ended, and what is said of the most of them."""
+    return f"{outcome.meaning}. {outcome.reasons[0]}" if outcome.reasons else outcome.meaning
 
 
 def _places(results: Results) -> list[str]:

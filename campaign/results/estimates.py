@@ -8,6 +8,7 @@ from campaign.statistics.release import ReleaseComparison
 from campaign.statistics.total import TOTAL, total_mean
 
 BOUNDS = ("checkpoint", "bound")
+EXACT = "(Clopper and Pearson)"
 
 
 def of_history(history: ConvergenceHistory) -> Variables:
@@ -18,15 +19,20 @@ def of_history(history: ConvergenceHistory) -> Variables:
         "n_slides": variable(at, history.n_slides, "1", "realizations that slid", "i4"),
         "slide_probability": variable(at, history.slide_probability, "1", "probability of a slide"),
         "slide_probability_ci": variable(
-            BOUNDS, history.slide_probability_ci, "1", "confidence interval of slide_probability (Clopper and Pearson)"
+            BOUNDS, history.slide_probability_ci, "1", f"confidence interval of slide_probability {EXACT}"
         ),
         "exceedance": variable(at, history.exceedance, "1", f"probability of a run-out {beyond}; zero without a slide"),
-        "exceedance_ci": variable(BOUNDS, history.exceedance_ci, "1", "confidence interval of exceedance (Wilson)"),
+        "exceedance_ci": variable(
+            BOUNDS, history.exceedance_ci, "1", "confidence interval of exceedance (Clopper and Pearson)"
+        ),
         "exceedance_given_sliding": variable(
             at, history.exceedance_given_sliding, "1", f"probability that a slide has a run-out {beyond}"
         ),
         "exceedance_given_sliding_ci": variable(
-            BOUNDS, history.exceedance_given_sliding_ci, "1", "confidence interval of exceedance_given_sliding (Wilson)"
+            BOUNDS,
+            history.exceedance_given_sliding_ci,
+            "1",
+            "confidence interval of exceedance_given_sliding (Clopper and Pearson)",
         ),
         "runout_mean": variable(at, history.mean, "m", "mean final run-out of the slides"),
         "runout_mean_ci": variable(BOUNDS, history.mean_ci, "m", "confidence interval of runout_mean (Student t)"),

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from campaign.record import USABLE
+from campaign.record import UNHINDERED, USABLE
 from campaign.results.results import Results
 from campaign.results.sensitivity_table import ESTIMATES, OTHERS
 from campaign.results.variables import Variables, variable
@@ -66,16 +66,17 @@ def _of_soil(results: Results) -> Variables:
     if not moving.any():
         return {}
     slides, usable = is_kept & results.has_slid, is_kept & results.has_status(USABLE)
-    runouts, found = results.runouts[slides], Variables()
+    whole = is_kept & results.has_status(UNHINDERED)  # the others ran as far as the model lets them, in any soil
+    runouts, found = results.runouts[whole], Variables()
     if is_enough(runouts, sensitivity.FEWEST):
-        means = sensitivity.means_over(field_map[slides], moving)
+        means = sensitivity.means_over(field_map[whole], moving)
         found |= _of_ranking("runout", sensitivity.ranking(means, runouts, results.confidence))
     if min(np.count_nonzero(slides), np.count_nonzero(usable & ~slides)) >= FEWEST_OF_EACH:
         means = sensitivity.means_over(field_map[usable], moving)
         outcome = slides[usable].astype(np.float64)
         found |= _of_ranking("slide", sensitivity.ranking(means, outcome, results.confidence))
     if is_enough(runouts, sensitivity_map.FEWEST):
-        found |= _of_map(sensitivity_map.sensitivity_map(field_map[slides], runouts, results.confidence))
+        found |= _of_map(sensitivity_map.sensitivity_map(field_map[whole], runouts, results.confidence))
     return found
 
 

@@ -193,3 +193,11 @@ def quantile_interval(
     # NaN is where the rank before the first and the one after the last lead.
     low, high = (np.append(np.sort(each), math.nan) for each in (values, most))
     return Interval(float(np.quantile(values, probability)), float(low[first - 1]), float(high[last]), n)
+
+
+def is_least_quantile(values: Sample, probability: float, is_least: NDArray[np.bool_]) -> bool:
+    """Whether a quantile would be larger, were those values larger that are lower bounds of what they stand for."""
+    if not is_least.any():
+        return False
+    above = np.quantile(values, probability, method="higher")
+    return bool(np.any(is_least & (values <= above)))

@@ -48,6 +48,11 @@ class Outcomes(NamedTuple):
         return int(np.count_nonzero(self.is_hindered))
 
     @property
+    def unhindered(self) -> int:
+        """Number of slides that no wall was in the way of."""
+        return self.slides - self.hindered
+
+    @property
     def cut_short(self) -> int:
         """Number of slides that would have come farther, nobody knows how far."""
         return int(np.count_nonzero(self.is_cut_short))
@@ -62,8 +67,8 @@ class Outcomes(NamedTuple):
         return int(np.count_nonzero(self.runouts > distance))
 
     def undecided(self, distance: float) -> int:
-        """Return how many may have run farther than a distance [m] but for a wall."""
-        return int(np.count_nonzero(self.is_hindered & (self.runouts <= distance)))
+        """Return how many were cut short before a distance [m], and may have run farther."""
+        return int(np.count_nonzero(self.is_cut_short & (self.runouts <= distance)))
 
 
 class Account:

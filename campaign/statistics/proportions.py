@@ -5,10 +5,11 @@ from functools import lru_cache
 
 from scipy import special
 
-from campaign.statistics.intervals import Interval, normal_quantile, unknown
+from campaign.statistics.intervals import Interval, unknown
 from campaign.statistics.outcomes import Outcomes
 
 
+@lru_cache(maxsize=4096)
 def exact_interval(successes: int, n: int, confidence: float) -> Interval:
     """Proportion with the interval of Clopper and Pearson, which holds at least as often as it says for every truth.
 
@@ -38,41 +39,16 @@ def results_to_bound(chance: float, confidence: float) -> int:
     return math.ceil(math.log((1.0 - confidence) / 2.0) / math.log(1.0 - chance))
 
 
-@lru_cache(maxsize=4096)
-def proportion_interval(successes: int, n: int, confidence: float) -> Interval:
-    """Proportion with Wilson's score interval, which stays inside [0, 1] and does not collapse at 0 or n successes.
-
-    (k + z^2 / 2 +- z sqrt(k (n - k) / n + z^2 / 4)) / (n + z^2); written out, as scipy.stats takes a second to load.
-
-    Returns
-    -------
-    Interval
-        All NaN for n = 0.
-
-    References
-    ----------
-    E. B. Wilson (1927), Journal of the American Statistical Association 22, 209-212.
-    """
-    if n == 0:
-        return unknown(math.nan, 0)
-    z = normal_quantile(confidence)
-    middle = successes + z**2 / 2
-    half_width = z * math.sqrt(successes * (n - successes) / n + z**2 / 4)
-    lower = (middle - half_width) / (n + z**2) if successes else 0.0
-    upper = (middle + half_width) / (n + z**2) if successes < n else 1.0
-    return Interval(successes / n, lower, upper, n)
-
-
 def slide_probability(outcomes: Outcomes, confidence: float) -> Interval:
     """Probability that the slope slides, with its interval (Clopper and Pearson)."""
     return exact_interval(outcomes.slides, outcomes.usable, confidence)
 
 
 def exceedance(outcomes: Outcomes, distance: float, confidence: float) -> Interval:
-    """Probability of a run-out beyond a distance [m], with its interval (Wilson); without a slide the run-out is zero.
+    """Probability of a run-out beyond a distance [m], with its interval (Clopper and Pearson); 0 m without a slide.
 
-    A slide that a wall has stopped before the distance may have gone beyond it: for the estimate and the lower bound
-    none of these would have, for the upper bound all.
+    A slide that was cut short before the distance may have gone beyond it: for the estimate and the lower bound none of
+    these would have, for the upper bound all.
     """
     return _share_beyond(outcomes, distance, outcomes.usable, confidence)
 
@@ -86,7 +62,7 @@ def _share_beyond(outcomes: Outcomes, distance: float, n: int, confidence: float
     if math.isnan(distance):
         return unknown(math.nan, n)
     beyond, undecided = outcomes.beyond(distance), outcomes.undecided(distance)
-    least, most = (proportion_interval(count, n, confidence) for count in (beyond, beyond + undecided))
+    least, most = (exact_interval(count, n, confidence) for count in (beyond, beyond + undecided))
     return least._replace(upper=most.upper)
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from campaign.record import LOWER_BOUND, Status
 from campaign.statistics.intervals import Interval, Sample, quantile_interval, unknown
-from campaign.statistics.proportions import exact_interval
+from campaign.statistics.proportions import exact_interval, failure_bounds
 
 REACHED = {
     "front_reaches": "probability that the slide's front reaches it",
@@ -86,7 +86,7 @@ def receptor_estimates(data: xr.Dataset, confidence: float) -> list[ReceptorEsti
 
 
 def reach_probability(
-    reaches: Sample, may_come: NDArray[np.bool_], is_hindered: NDArray[np.bool_], confidence: float
+    reaches: Sample, may_come: NDArray[np.bool_], confidence: float
 ) -> tuple[Interval, tuple[float, float]]:
     """Return the probability that something reaches a place, with its interval, and what the open realizations allow.
 
@@ -95,28 +95,25 @@ def reach_probability(
     reaches : ndarray (n,)
         1 or 0 for each realization, NaN where it failed; these are left out.
     may_come : bool ndarray (n,)
-        Whether it could still get there after the end, or had a wall not stopped it.
-    is_hindered : bool ndarray (n,)
-        Whether a wall stopped it: where it did not get there, it counts as if it had for the upper bound alone.
+        Whether it could still get there after the end, or had a wall not stopped it: where it did not, it counts as if
+        it had for the upper bound alone.
     confidence : float
         Of the interval, which is that of Clopper and Pearson (1934), Biometrika 26, 404-413.
     """
-    failed = np.isnan(reaches)
-    reached, n = int(np.nansum(reaches)), int(np.count_nonzero(~failed))
-    unknowns = int(np.count_nonzero(failed | (may_come & (reaches == 0.0))))
+    failed = int(np.count_nonzero(np.isnan(reaches)))
+    reached, n = int(np.nansum(reaches)), len(reaches) - failed
     if n == 0:
         return unknown(math.nan, 0), (math.nan, math.nan)
-    stopped = int(np.count_nonzero(is_hindered & (reaches == 0.0)))
-    least, most = (exact_interval(count, n, confidence) for count in (reached, reached + stopped))
-    return least._replace(upper=most.upper), (reached / len(reaches), (reached + unknowns) / len(reaches))
+    undecided = int(np.count_nonzero(may_come & (reaches == 0.0)))
+    least, most = (exact_interval(count, n, confidence) for count in (reached, reached + undecided))
+    return least._replace(upper=most.upper), failure_bounds(reached, n - undecided, failed + undecided)
 
 
 def _of_one(name: str, data: xr.Dataset, confidence: float) -> Iterator[ReceptorEstimate]:
-    is_hindered = data["status"].values == Status.reached_wall
     may_go_on = np.isin(data["status"].values, list(LOWER_BOUND))
     may_come = {"front_reaches": may_go_on & ~_stays_short(data), "moved_ground_reaches": may_go_on}
     for variable, called in REACHED.items():
-        interval, bounds = reach_probability(data[variable].values, may_come[variable], is_hindered, confidence)
+        interval, bounds = reach_probability(data[variable].values, may_come[variable], confidence)
         yield ReceptorEstimate(name, called, "1", interval, bounds)
     is_reached = data["front_reaches"].values == 1.0
     for variable, called in EFFECTS.items():
@@ -127,7 +124,10 @@ def _of_one(name: str, data: xr.Dataset, confidence: float) -> Iterator[Receptor
 
 
 def _stays_short(data: xr.Dataset) -> NDArray[np.bool_]:
-    """Whether the place is farther from the front than this could have come after the end, (realization,)."""
+    """Whether the place is farther from the front than this could have come after the end, (realization,).
+
+    Nothing tells how far a slide would have come that a wall has stopped.
+    """
     near = float(np.min(data["receptor_x_bounds"].values))
-    short: NDArray[np.bool_] = data["front_position"].values[:, -1] + data["farther_advance"].values < near
-    return short
+    comes_to = data["front_position"].values[:, -1] + data["farther_advance"].values
+    return np.asarray((comes_to < near) & (data["status"].values != Status.reached_wall))

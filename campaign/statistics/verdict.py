@@ -1,5 +1,6 @@
 """The verdict: a sentence on whether sampling has converged, and if not, what is missing."""
 
+from campaign.statistics.outcomes import Outcomes
 from campaign.statistics.proportions import results_to_bound
 from campaign.statistics.stopping import LOOKS_IN_A_ROW, RARE, Checkpoint, StoppingRule
 from campaign.statistics.wording import chance_of_slide, percent
@@ -28,8 +29,12 @@ def _known(latest: Checkpoint, rule: StoppingRule) -> str:
     if not latest.knows_runout(rule):
         return f"{outcomes.slides} slid, {chance}, and too few slide for a mean and a variance"
     mean, variance = percent(latest.mean.precision), percent(latest.variance.precision)
-    so_far = "" if outcomes.bound_the_mean else f", as far as slides came ({outcomes.cut_short:,} were cut short),"
-    return f"{chance}, the mean run-out{so_far} is known to {mean}, its variance to {variance}"
+    return f"{chance}, the mean run-out{_so_far(outcomes)} is known to {mean}, its variance to {variance}"
+
+
+def _so_far(outcomes: Outcomes) -> str:
+    """Say that a number is of run-outs that would have been longer, of more than a few; "" else."""
+    return "" if outcomes.bound_the_mean else f", as far as slides came ({outcomes.cut_short:,} were cut short),"
 
 
 def _shortfall_without_slides(latest: Checkpoint, rule: StoppingRule) -> str:
@@ -63,8 +68,9 @@ def _shortfall_of_runout(latest: Checkpoint, rule: StoppingRule) -> list[str]:
         "mean": (latest.mean.precision, rule.mean_tolerance),
         "variance": (latest.variance.precision, rule.variance_tolerance),
     }
+    came = _so_far(latest.outcomes)
     return [
-        f"the {name} is known to {percent(precision)}, {percent(tolerance)} was asked"
+        f"the {name}{came} is known to {percent(precision)}, {percent(tolerance)} was asked"
         for name, (precision, tolerance) in asked.items()
         if precision > tolerance
     ]

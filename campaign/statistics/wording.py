@@ -3,6 +3,7 @@
 import math
 
 from campaign.statistics.intervals import Interval
+from campaign.statistics.outcomes import Outcomes
 
 
 def percent(share: float) -> str:
@@ -43,6 +44,11 @@ def metres(interval: Interval) -> str:
     if math.isinf(interval.upper):
         return f"at least {interval.lower:.2f} m"
     return f"{interval.lower:.2f} to {interval.upper:.2f} m" if interval.is_known else "not enough slides"
+
+
+def so_far(outcomes: Outcomes) -> str:
+    """Return what follows a number of the slides' run-outs where more than a few were cut short, "" else."""
+    return "" if outcomes.bound_the_mean else ", as far as they came"
 
 
 def chance_of_slide(probability: Interval) -> str:

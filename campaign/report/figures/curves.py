@@ -6,6 +6,7 @@ from matplotlib.collections import LineCollection
 
 from campaign.report.figures.style import BLACK, BLUE, COLUMN, GREY, Illustration, need_slides, new_figure
 from campaign.results.results import Results
+from campaign.statistics.wording import so_far
 from campaign.terminal import counted
 
 FEWEST_FOR_BANDS = 20
@@ -30,7 +31,7 @@ def curves(results: Results) -> Illustration:
     axes.legend(loc="upper left")
     half = float(np.median(np.nan_to_num(results.data["settle_time"].values[results.has_slid], nan=np.inf)))
     rest = f" Half of them rest after {half:.1f} s." if np.isfinite(half) else ""
-    caption = f"Run-out of {counted(n, 'slide')} over time.{rest}{what_is_drawn(n)}"
+    caption = f"Run-out of {counted(n, 'slide')} over time{so_far(results.outcomes)}.{rest}{what_is_drawn(n)}"
     return Illustration(figure, caption, f"Run-out against time for {counted(n, 'slide')}; all rise and level off.")
 
 

@@ -7,7 +7,7 @@ from campaign.report.cut_short import at_least
 from campaign.report.figures.style import BLACK, BLUE, COLUMN, GREY, Illustration, need, need_slides, new_figure
 from campaign.report.figures.svg import on_hover
 from campaign.results.results import Results
-from campaign.statistics.wording import metres
+from campaign.statistics.wording import metres, so_far
 from campaign.terminal import counted
 
 
@@ -31,11 +31,10 @@ def histogram(results: Results) -> Illustration:
     axes.set(xlabel="final run-out (m)", ylabel="slides (-)")
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=2)
     spread = estimates.std_runout(results)
-    so_far = "" if results.outcomes.bound_the_mean else ", as far as they came"
     caption = (
-        f"Final run-out of {counted(n, 'slide')}{so_far}: mean {mean:.2f} m ({metres(estimates.mean_runout(results))}, "
-        f"sampling alone), standard deviation {std:.2f} m ({metres(spread)}). Blue: the normal distribution with these "
-        "two numbers. Dashed: the run with mean strengths everywhere."
+        f"Final run-out of {counted(n, 'slide')}{so_far(results.outcomes)}: mean {mean:.2f} m "
+        f"({metres(estimates.mean_runout(results))}, sampling alone), standard deviation {std:.2f} m ({metres(spread)})"
+        ". Blue: the normal distribution with these two numbers. Dashed: the run with mean strengths everywhere."
     )
     alt = f"Histogram of {counted(n, 'run-out')} between {runouts.min():.2f} and {runouts.max():.2f} m."
     return Illustration(figure, caption, alt)

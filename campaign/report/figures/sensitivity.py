@@ -20,9 +20,10 @@ COLOURS = "RdBu_r"
 
 def sensitivity(results: Results, section: Section) -> Illustration:
     """Draw the change of the run-out by more strength in each box, a panel for each random property."""
-    found, slides = map_of(results.data), results.outcomes.slides
+    found, slides = map_of(results.data), results.outcomes.unhindered
     if found is None:
-        raise NotDrawableError(f"It needs {FEWEST} slides whose random soil is known, and there are {slides}.")
+        which = "that no wall stops, and whose random soil is known"
+        raise NotDrawableError(f"It needs {FEWEST} slides {which}; there are {slides}.")
     need(found.explained > 0, "The place of strong ground foretells nothing of the run-out.")
     named = names(results)
     rows = len(named)
@@ -38,9 +39,9 @@ def sensitivity(results: Results, section: Section) -> Illustration:
     caption = (
         f"What {TENTH} of a property in one box alone makes of the run-out of a slide: red lengthens, blue shortens "
         "it. Dots mark boxes whose effect can be told from none; what the others show may be chance. From "
-        f"{slides} slides; {chance(found.explained)} of their scatter can be foretold from the place of strong ground. "
-        "Soil is similar over the lengths of its correlation, so that a box speaks for its surroundings too. Dashed: "
-        "the ground before the slide."
+        f"{found.everywhere[0].n} slides; {chance(found.explained)} of their scatter can be foretold from the place of "
+        "strong ground. Soil is similar over the lengths of its correlation, so that a box speaks for its surroundings "
+        "too. Dashed: the ground before the slide."
     )
     return Illustration(figure, caption, f"Maps of the slope: effect of {' and of '.join(named)} on the run-out.")
 

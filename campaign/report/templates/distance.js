@@ -5,18 +5,13 @@
   const data = JSON.parse(document.getElementById("distance-data").textContent);
   const toe = {{ toe }}, sometimes = {{ sometimes | tojson }};
   const input = document.getElementById("distance"), told = document.getElementById("told");
-  const percent = (share) => (share >= 10 && share <= 90 ? share.toFixed(0) : String(+share.toPrecision(share < 10 ? 2 : 3)));
-  function words(which, k) {
-    const [share, low, high] = ["estimate", "lower", "upper"].map((part) => percent(data[which + "_" + part][k]));
-    return share + " % (" + low + " to " + high + " %)";
-  }
   function tell() {
     const distance = parseFloat(input.value);
     document.getElementById("place").textContent = isFinite(distance) ? String(+(toe + distance).toPrecision(4)) : "?";
     if (!(distance >= 0)) { told.textContent = "Enter a distance of 0 m or more."; return; }
     let k = 0;
     while (k + 1 < data.distance.length && data.distance[k + 1] <= distance) k += 1;
-    told.textContent = words("all", k) + (sometimes ? "; if it slides " + words("sliding", k) : "");
+    told.textContent = data.all[k] + (sometimes ? "; if it slides " + data.sliding[k] : "");
   }
   form.hidden = false;
   input.value = String(+data.distance[Math.floor(data.distance.length / 2)].toPrecision(3));

@@ -6,11 +6,12 @@ import xarray as xr
 from small_campaign import small_scene
 
 from campaign.record import Status
-from campaign.report import distances, headline, places
+from campaign.report import distances, headline
+from campaign.report.movement import REST, movement
 from campaign.report.wording import bounds, number, unbroken
 from campaign.results.results import Results
 from campaign.statistics.intervals import Interval
-from campaign.statistics.proportions import proportion_interval
+from campaign.statistics.proportions import exact_interval
 
 SCENE = small_scene()
 
@@ -50,17 +51,24 @@ SOMETIMES = results([2.0, 0.3, 1.0, 0.3], [Status.slid, Status.no_slide] * 2)
 @pytest.mark.parametrize(("distance", "beyond"), [(0.0, 2), (0.99, 2), (1.0, 1), (1.9, 1), (2.0, 0), (99.0, 0)])
 def test_the_curve_counts_who_runs_farther(distance, beyond):
     curve = distances.exceedance_curve(SOMETIMES)
-    assert curve.at(distance) == pytest.approx(proportion_interval(beyond, 4, 0.95))
+    assert curve.at(distance) == pytest.approx(exact_interval(beyond, 4, 0.95))
     given = distances.exceedance_curve(SOMETIMES, given_sliding=True)
-    assert given.at(distance) == pytest.approx(proportion_interval(beyond, 2, 0.95))
+    assert given.at(distance) == pytest.approx(exact_interval(beyond, 2, 0.95))
 
 
-def test_the_script_gets_the_same_curve_in_per_cent():
-    data = distances.data(distances.curves_of(SOMETIMES))
+def test_the_script_gets_the_words_of_the_table():
+    curves = distances.curves_of(SOMETIMES)
+    data = distances.data(curves)
     assert data["distance"] == [0.0, 1.0, 2.0]
-    assert data["all_estimate"] == [50.0, 25.0, 0.0]
-    assert data["sliding_estimate"] == [100.0, 50.0, 0.0]
-    assert all(len(column) == 3 for column in data.values())
+    assert data["all"] == [curves.all.words(distance) for distance in (0.0, 1.0, 2.0)]
+    assert data["sliding"][1] == curves.given_sliding.words(1.5) == "50 % (1.3 to 98.7 %)"
+
+
+def test_where_walls_leave_a_probability_open_table_and_script_say_at_least():
+    """One of three ran beyond 2 m, and the walls may have kept both others from it: 1/3 or more (exact: 0.84 %)."""
+    given = results([1.0, 2.0, 3.0], [Status.reached_wall, Status.reached_wall, Status.slid])
+    assert distances.data(distances.curves_of(given))["all"][2] == "at least 33 % (at least 0.84 %)"
+    assert "at least 33 % (at least 0.84 %)" in [row.beyond for row in table(given)]
 
 
 def test_the_table_has_round_distances_from_all_slides_to_none():
@@ -119,12 +127,20 @@ def test_ground_raised_ahead_of_the_fronts_is_told_beside_them():
     assert far.remark == "ground is raised as far as 107.0 m"
 
 
+def test_ground_raised_by_slides_cut_short_is_raised_at_least_so_far():
+    """The wall stopped the longest twenty of a hundred: the median is known, the 95 % quantile is a lower bound."""
+    runouts = np.arange(1.0, 101.0)
+    _, median, far = headline.tiles(results(runouts, [Status.slid] * 80 + [Status.reached_wall] * 20, runouts + 12.0))
+    assert median.remark == "ground is raised as far as 62.5 m"
+    assert far.remark.endswith("; ground is raised at least as far as 107.0 m")
+
+
 def test_a_rest_after_the_end_is_later_than_the_others():
     """Of 20 slides 8 rest after 1 to 8 s: half of them do so after the end of the run; of 12, half within 10.5 s."""
 
     def told(settled):
         rest = [*np.arange(1.0, settled + 1.0), *[np.nan] * (20 - settled)]
-        return places.movement(results(np.arange(1.0, 21.0), [Status.slid] * 20, rest=rest))[-1]
+        return movement(results(np.arange(1.0, 21.0), [Status.slid] * 20, rest=rest))[-1]
 
     assert told(8).median == "later than the end"
     assert (told(12).median, told(12).median_interval) == ("10.5 s", "at least 6.00 s")
@@ -146,7 +162,7 @@ def test_where_there_would_be_more_behind_the_crest_it_is_a_lower_bound():
     given = results(
         np.arange(1.0, 21.0), [Status.slid] * 20, rest=[np.nan] * 2 + [5.0] * 18, influence=[6.0] * 17 + [20.0] * 3
     )
-    volume, lost, moved, rest = places.movement(given)
+    volume, lost, moved, rest = movement(given)
     told = "(at least: in 2 slides still moving at the end)"
     assert volume.name == f"ground that moves by more than 0.1 m, per metre of width {told}"
     assert lost.name == f"length lost behind the crest, moved by more than 1 m {told}"
@@ -154,4 +170,19 @@ def test_where_there_would_be_more_behind_the_crest_it_is_a_lower_bound():
         "length behind the crest that moves by more than 0.1 m (at least: in 3 slides to the wall of the model and in "
         "2 slides still moving at the end)"
     )
-    assert rest.name == places.REST
+    assert rest.name == REST
+
+
+def test_what_moves_in_slides_that_a_wall_stopped_is_at_least_so_much():
+    """A wall ahead holds back all of a slide; 10 of 20 leave the upper half of the values open."""
+    given = results(
+        np.arange(1.0, 21.0), [Status.reached_wall] * 10 + [Status.slid] * 10, influence=[*np.arange(1.0, 11.0)] * 2
+    )
+    volume, lost, moved, rest = movement(given)
+    told = "(at least: in 10 slides that a wall stopped)"
+    assert volume.name == f"ground that moves by more than 0.1 m, per metre of width {told}"
+    assert lost.name == f"length lost behind the crest, moved by more than 1 m {told}"
+    assert (moved.median, moved.median_interval) == ("at least 5.50 m", "at least 3.00 m")
+    assert rest.name == "time from release to rest (in 10 slides as a wall stopped them)"
+    free = movement(results(np.arange(1.0, 21.0), [Status.slid] * 20, influence=[*np.arange(1.0, 11.0)] * 2))
+    assert (free[2].median, free[2].median_interval) == ("5.50 m", "3.00 to 8.00 m")

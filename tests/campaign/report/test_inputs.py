@@ -5,12 +5,13 @@ import numpy as np
 import pytest
 from soil_campaign import soil_campaign
 
+from campaign.record import Status
 from campaign.report.figures import inputs, sensitivity
 from campaign.report.figures.section import section_of
 from campaign.report.figures.style import NotDrawableError, in_style
 from campaign.report.inputs import effect_rows, property_rows, sentences
 from campaign.results.results import Results
-from campaign.results.sensitivity import effects_of
+from campaign.results.sensitivity import effects_of, map_of, ranking_of, with_sensitivity
 
 
 @pytest.fixture(scope="module")
@@ -86,6 +87,28 @@ def test_too_little_is_said_in_a_sentence(bare):
     for draw in drawings(bare):
         with pytest.raises(NotDrawableError, match="It needs"):
             draw()
+
+
+def test_slides_that_a_wall_stopped_have_no_part_in_what_the_soil_does(results):
+    """The wall stopped the longest 20 of 80 slides; the other 60 tell the same as a campaign of these alone."""
+    stopped = results.runouts > np.sort(results.runouts)[59]
+    status = np.where(stopped, int(Status.reached_wall), results.data["status"].values)
+    told = [name for name in results.data if str(name).startswith(("sensitivity", "runout_"))]
+    walled = Results(results.data.drop_vars(told).assign(status=("realization", status)), results.scene)
+    told_again = Results(with_sensitivity(walled, None), walled.scene)
+    assert ranking_of(told_again.data, "runout").correlation[0].n == map_of(told_again.data).everywhere[0].n == 60
+    alone = walled.data.isel(realization=np.flatnonzero(~stopped))
+    assert ranking_of(with_sensitivity(Results(alone, walled.scene), None), "runout") == ranking_of(
+        told_again.data, "runout"
+    )
+    assert sentences(told_again)[-1] == (
+        "What the soil makes of the run-out is told without the 20 of 80 slides that a wall of the model stopped; with "
+        "their whole run-outs it may be another."
+    )
+    assert "From 60 slides" in drawings(told_again)[1]().caption
+    moving = np.where(stopped, int(Status.not_settled), results.data["status"].values)
+    still = Results(results.data.assign(status=("realization", moving)), results.scene)
+    assert sentences(still)[-1] == "20 slides that still moved at the end count as far as they came."
 
 
 @pytest.mark.parametrize("number", [0, 1])

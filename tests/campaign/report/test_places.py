@@ -8,7 +8,7 @@ from small_campaign import small_scene
 
 from campaign.record import Status
 from campaign.report import headline
-from campaign.report.places import places, reach_estimates
+from campaign.report.places import ended_or_was_there, places, reach_estimates
 from campaign.results.results import Results
 from campaign.statistics.receptors import AHEAD, EFFECTS
 
@@ -80,3 +80,37 @@ def test_the_first_ground_is_told_beside_the_front():
     rows = {row.name: row.median for row in place.effects}
     assert rows["arrival of any moved ground after the release"] == "1.50 s"
     assert rows["arrival of the front"] == "2.50 s"
+
+
+def beside_a_wall(away, statuses):
+    """Return slides whose front reaches a house so far (m) from the wall ahead, and how they ended."""
+    house = f'receptor=[{{name="house", x="{75.0 - away:g} m"}}]'
+    given = results([1] * len(statuses), [1] * len(statuses))
+    status = ("realization", np.array([int(each) for each in statuses]))
+    return Results(given.data.assign(status=status), small_scene(house))
+
+
+def test_flow_close_to_a_wall_that_stopped_it_is_told_with_caution():
+    """Five cells of 2 m: what a wall 8 m away throws back is seen, what one 12 m away does is not."""
+    (place,) = places(beside_a_wall(8.0, [Status.reached_wall] * 3 + [Status.slid]))
+    assert place.thrown_back == (
+        "A wall of the model, 8 m from here, stopped 3 of the 4 slides that come here. Ground piles up at it and is "
+        "thrown back, so that depths, velocities and pressures are not those of the slope alone."
+    )
+    for away, ending in ((12.0, Status.reached_wall), (8.0, Status.slid)):
+        (place,) = places(beside_a_wall(away, [ending] * 4))
+        assert place.thrown_back == ""
+
+
+def test_fronts_that_came_back_are_why_a_place_counts_more_than_the_table():
+    """The toe is at 35 m and the house 7 m beyond: of four fronts that were there one ended 6 m from the toe."""
+    given = results([1] * 4, [1] * 4)
+    data = given.data.assign(final_runout_mass=("realization", np.array([6.0, 7.0, 8.0, 9.0]))).assign_attrs(toe_x=35.0)
+    assert ended_or_was_there(Results(data, HOUSE)) == (
+        "The table counts fronts that ended beyond a distance, a place those that were ever there: 1 came back from "
+        "house."
+    )
+    stayed = data.assign(final_runout_mass=("realization", np.full(4, 7.0)))
+    assert ended_or_was_there(Results(stayed, HOUSE)) == ""
+    tip = small_scene('receptor=[{name="house", x="42 m"}]', "slide.front=tip")
+    assert "front-most particle" in ended_or_was_there(Results(data, tip))

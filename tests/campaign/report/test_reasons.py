@@ -7,13 +7,15 @@ from small_campaign import conclude, made_up, small_scene
 
 from campaign.record import SLID, Status
 from campaign.report import headline
-from campaign.report.answer import alike, answer
+from campaign.report.answer import alike, answer, outcomes
 from campaign.report.cut_short import causes
 from campaign.report.error_budget import error_budget
 from campaign.report.inputs import sentences
 from campaign.report.reservations import reasons_for_doubt
+from campaign.report.summary import summary
 from campaign.results.results import Results, read_results
 from campaign.seeds import BASELINE
+from campaign.simulation.detachment import CAME_APART
 from campaign.simulation.flags import AHEAD_WALL, CREST_WALL
 from campaign.simulation.ground import prepare
 
@@ -22,7 +24,7 @@ LEFT = "A particle left the grid at {time} s; widen the ground."
 
 def test_reasons_that_differ_in_their_times_are_one():
     reasons = ["took too long", *(LEFT.format(time=time) for time in ("3.90", "4.10", "4.20")), ""]
-    assert alike(reasons) == [LEFT.format(time="3.90"), "took too long"]
+    assert list(alike(reasons).items()) == [(LEFT.format(time="3.90"), 3), ("took too long", 1)]
 
 
 AHEAD = AHEAD_WALL.format(width=75.0)
@@ -59,12 +61,16 @@ def test_the_wall_in_the_way_is_named(twenty):
         return [(each.told, each.remedy) for each in causes(ended(twenty, stopped, reason=reason))]
 
     assert told(0, reason=CREST_WALL) == [
-        ("the wall behind the crest stopped 1 of 20 slides", "Lengthen the ground there (geometry.slope.crest).")
+        (
+            "the wall behind the crest stopped 1 of 20 slides",
+            "Lengthen geometry.slope.crest, for instance by 15 m, which moves the toe from x = 35 m to 50 m.",
+        )
     ]
     assert told(0, 1, reason=f"{CREST_WALL} {AHEAD_WALL.format(width=50.0)}") == [
         (
             "the wall behind the crest or that ahead of the slope stopped 2 of 20 slides",
-            "Lengthen the ground there (geometry.slope.crest and geometry.slope.plain).",
+            "Lengthen geometry.slope.crest, for instance by 15 m, which moves the toe from x = 35 m to 50 m. Lengthen "
+            "geometry.slope.plain.",
         )
     ]
     assert told(2, reason="")[0][0] == "a wall of the model stopped 1 of 20 slides"
@@ -78,8 +84,8 @@ def test_many_slides_cut_short_leave_no_upper_bound(twenty):
     assert f"The slide runs at least 10.19 m on average, at least {lower:.2f} m with 95 % confidence" in told
     assert (
         "This is a lower bound, and nothing bounds the mean from above: the wall ahead of the slope stopped 1 of 20 "
-        "slides and 1 of 20 slides still moved when the run ended. Lengthen the ground there (geometry.slope.plain). "
-        "Raise numerics.end_time."
+        "slides and 1 of 20 slides still moved when the run ended. Lengthen geometry.slope.plain. Raise "
+        "numerics.end_time."
     ) in told
     assert "Single slides, as far as they came, scatter by a standard deviation of 0.12 m; the shortest" in told
     assert "the longest at least 10.38 m" in told
@@ -127,8 +133,8 @@ def test_walls_that_stop_all_slides_are_the_reason_that_is_given(twenty):
     (release,) = by_source(stopped, "Release")
     assert (release.value, release.interval) == ("not estimated", 'this run reached a wall with "release"')
     assert sentences(stopped) == [
-        "It takes 30 slides to say which property of the soil matters, and there are 20; what the inputs do is told by "
-        "slides that no wall stops, and walls stopped all of them."
+        "It takes 30 slides that no wall stops to say which property of the soil matters, and there are 0; what the "
+        "inputs do is told by slides that no wall stops, and walls stopped all of them."
     ]
     assert "With mean strengths everywhere it would run at least 9.00 m; 100 % of all" in answer(stopped)
     assert by_source(stopped, "Sampling")[-1].quantity.endswith(
@@ -168,3 +174,40 @@ def test_slides_that_still_move_are_counted_not_shared_out(twenty):
 def test_the_shortest_slide_is_bounded_below_where_it_was_cut_short(twenty):
     assert "the shortest ran at least 10.00 m" in answer(ended(twenty, stopped=[0]))
     assert "the shortest ran 10.00 m" in answer(ended(twenty, stopped=[5]))
+
+
+def test_whatever_failed_and_whatever_a_wall_stopped_bound_a_share_together(twenty):
+    """Mean strengths run 9 m, and all 20 farther; had the first 4 been stopped at 8 m and 2 crashed, 14 to 20 of 20."""
+    runouts = np.concatenate([np.full(4, 8.0), RUNOUTS[4:18], np.full(2, np.nan)])
+    status = np.array([int(Status.reached_wall)] * 4 + [int(Status.slid)] * 14 + [int(Status.crashed)] * 2)
+    data = twenty.data.assign(status=("realization", status), final_runout_mass=("realization", runouts))
+    slides, farther = by_source(Results(data, twenty.scene), "Failures")
+    assert (slides.quantity, slides.value) == (
+        "probability of a slide, whatever the failed would have done",
+        "2 failed",
+    )
+    assert farther.quantity == "probability of more than 9.00 m, whatever the failed or cut short would have done"
+    assert (farther.value, farther.interval, farther.n) == ("2 failed, 4 cut short", "at least 70 %", "20")
+
+
+def test_what_is_said_of_some_realizations_is_not_said_of_all(twenty):
+    apart = ended(twenty)
+    apart.data["reason"].values[:3] = CAME_APART
+    (outcome,) = outcomes(apart)
+    assert outcome.meaning == "slid, and the front came to rest"
+    assert outcome.reasons == [f"In 3 of them: {CAME_APART}"]
+    assert f"the front came to rest. In 3 of them: {CAME_APART[:40]}" in " ".join(summary(apart).split())
+
+
+def test_who_is_told_to_ask_for_a_rarer_slide_is_told_to_raise_the_realizations_too(twenty):
+    """368 without a slide bound it by 1 %; of the 20 that are asked for at most, 20 of 20 bound it by 17 %."""
+
+    def told(maximum):
+        stands = {"status": ("realization", np.full(60, int(Status.no_slide)))}
+        given = twenty.data.isel(realization=np.arange(60) % 20).assign_coords(realization=np.arange(60)).assign(stands)
+        return answer(Results(given, small_scene(f"campaign.realizations={maximum}")))
+
+    advice = "ask for campaign.slide_probability_tolerance = 0.005, which is half of that"
+    assert f"{advice}, and raise campaign.realizations to 368 or more." in told(60)
+    assert f"{advice}. " in told(368)
+    assert "campaign.realizations" not in told(368)

@@ -1,7 +1,7 @@
 """The stopping rule: it must stop at the right place, at the same place for everybody, and keep its promise there."""
 
 import math
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -242,3 +242,12 @@ def test_stopping_early_keeps_the_promise_of_the_intervals(draw, mean, variance,
     assert np.mean([each.converged_at is not None for each in results]) > 0.95
     assert np.mean([each.mean_ci[-1, 0] <= mean <= each.mean_ci[-1, 1] for each in results]) > 0.90
     assert np.mean([each.variance_ci[-1, 0] <= variance <= each.variance_ci[-1, 1] for each in results]) > least
+
+
+@pytest.mark.parametrize("rule", [LOOSE, replace(LOOSE, mean_tolerance=1e-4)])
+def test_a_verdict_on_run_outs_cut_short_says_so(rule):
+    """Whether the rule is satisfied or not: 15 of 150 slides may have come farther."""
+    statuses = [Status.reached_wall, *[Status.slid] * 9] * 15
+    verdict = judge(normal_runouts(5, 150), statuses, rule).verdict
+    assert "as far as slides came (15 were cut short), is known to" in verdict
+    assert "cut short" not in judge(normal_runouts(5, 150), [Status.slid] * 150, rule).verdict

@@ -36,7 +36,7 @@ def dataset(front, moved, statuses, depth, stop=0.0, farther=np.nan):
 def test_the_interval_is_that_of_clopper_and_pearson():
     """3 of 20: the bounds are quantiles of beta distributions, 0.0321 and 0.3789 in the tables."""
     reaches = np.array([1.0] * 3 + [0.0] * 17)
-    interval, bounds = reach_probability(reaches, *np.zeros((2, 20), dtype=bool), CONFIDENCE)
+    interval, bounds = reach_probability(reaches, np.zeros(20, dtype=bool), CONFIDENCE)
     assert interval.estimate == 0.15
     assert interval.lower == pytest.approx(special.betaincinv(3, 18, 0.025)) == pytest.approx(0.0321, abs=5e-5)
     assert interval.upper == pytest.approx(special.betaincinv(4, 17, 0.975)) == pytest.approx(0.3789, abs=5e-5)
@@ -44,7 +44,7 @@ def test_the_interval_is_that_of_clopper_and_pearson():
 
 
 def test_nothing_in_forty_has_an_upper_bound():
-    interval, _ = reach_probability(np.zeros(40), *np.zeros((2, 40), dtype=bool), CONFIDENCE)
+    interval, _ = reach_probability(np.zeros(40), np.zeros(40, dtype=bool), CONFIDENCE)
     assert (interval.estimate, interval.lower) == (0.0, 0.0)
     assert interval.upper == pytest.approx(1.0 - 0.025 ** (1 / 40))
 
@@ -53,13 +53,15 @@ def test_failures_are_left_out_and_bounded_and_so_is_what_still_moves():
     """Of ten, two reach, one failed, and one that has not reached it still moves: 2 of 9, and 2 to 4 of 10."""
     reaches = np.array([1.0, 1.0, np.nan, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     may_come = np.array([True, False, False, True, *[False] * 6])
-    interval, bounds = reach_probability(reaches, may_come, np.zeros(10, dtype=bool), CONFIDENCE)
+    interval, bounds = reach_probability(reaches, may_come, CONFIDENCE)
     assert (interval.estimate, interval.n) == (2 / 9, 9)
+    assert interval.lower == pytest.approx(special.betaincinv(2, 8, 0.025))
+    assert interval.upper == pytest.approx(special.betaincinv(4, 6, 0.975))
     assert bounds == (0.2, 0.4)
 
 
 def test_without_a_result_nothing_is_known():
-    interval, bounds = reach_probability(np.full(3, np.nan), *np.zeros((2, 3), dtype=bool), CONFIDENCE)
+    interval, bounds = reach_probability(np.full(3, np.nan), np.zeros(3, dtype=bool), CONFIDENCE)
     assert not interval.is_known
     assert interval.n == 0
     assert np.isnan(bounds).all()

@@ -1,0 +1,34 @@
+"""Numbers of many realizations as lines of a table: median and 95 % quantile, each with its interval."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from campaign.report.wording import bounds, number
+from campaign.statistics.intervals import Sample, is_least_quantile, quantile_interval
+from campaign.statistics.receptors import QUANTILES
+
+
+class Distribution(NamedTuple):
+    """A line of a table: a quantity with its median and its 95 % quantile, each with an interval."""
+
+    name: str
+    median: str
+    median_interval: str
+    far: str
+    far_interval: str
+
+
+def distribution(
+    name: str, values: Sample, unit: str, confidence: float, is_least: NDArray[np.bool_] | None = None
+) -> Distribution:
+    """Return median and 95 % quantile of the finite ones of some values, of which `is_least` marks lower bounds."""
+    known = np.isfinite(values)
+    finite, cut = values[known], np.zeros(np.count_nonzero(known), dtype=bool) if is_least is None else is_least[known]
+    columns: list[str] = []
+    for share in QUANTILES:
+        interval = quantile_interval(finite, share, confidence, cut)
+        is_open = is_least_quantile(finite, share, cut) and not np.isfinite(interval.upper)
+        columns += [f"{'at least ' if is_open else ''}{number(interval.estimate, unit)}", bounds(interval, unit)]
+    return Distribution(name, *columns)
