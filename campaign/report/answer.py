@@ -1,5 +1,6 @@
 """The answer of a campaign in words, for the terminal and the report."""
 
+import math
 import re
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -108,8 +109,10 @@ def _chance(results: Results) -> str:
 def _bounded_by_less(results: Results) -> str:
     """Say how to ask for more than that slides are rare."""
     number = results_to_bound(RARER, results.confidence)
-    is_too_many = number > results.scene.campaign.realizations
-    raised = f", and raise campaign.realizations to {number} or more" if is_too_many else ""
+    block = results.scene.campaign.block
+    looked_at = block * math.ceil(number / block)
+    is_too_many = looked_at > results.scene.campaign.realizations
+    raised = f", and raise campaign.realizations to {looked_at} or more" if is_too_many else ""
     return (
         f"About {number:,} realizations without a slide bound it by {100 * RARER:g} %: ask for "
         f"campaign.slide_probability_tolerance = {RARER / 2:g}, which is half of that{raised}."

@@ -11,13 +11,14 @@ from campaign.statistics.receptors import QUANTILES
 
 
 class Distribution(NamedTuple):
-    """A line of a table: a quantity with its median and its 95 % quantile, each with an interval."""
+    """A line of a table: a quantity with its median and its 95 % quantile, each with an interval; a remark or ""."""
 
     name: str
     median: str
     median_interval: str
     far: str
     far_interval: str
+    remark: str = ""
 
 
 def distribution(

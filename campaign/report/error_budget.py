@@ -78,9 +78,10 @@ def _runout(results: Results) -> list[Row]:
     if mean.n == 0:
         return []
     total, spread = estimates.total_runout(results), metres(std) if std.is_known else ""
+    least = "" if results.outcomes.bound_the_mean else "at least "
     holds = "sampling and mesh" if has_mesh_error(results.discretisation) else "sampling alone"
     return [
-        Row("Total", f"mean run-out of a slide, {holds}", f"{total.estimate:.2f} m", metres(total), n),
+        Row("Total", f"mean run-out of a slide, {holds}", f"{least}{total.estimate:.2f} m", metres(total), n),
         Row("Sampling", f"mean run-out of a slide{came}", f"{mean.estimate:.2f} m", metres(mean), n),
         Row("Sampling", f"standard deviation of a slide{came}", _known(std.estimate, ".2f", " m"), spread, n),
     ]
@@ -179,6 +180,9 @@ def _release(results: Results) -> Row:
     runs = {results.scene.numerics.gravity: run, found.other: found.summary}
     if lost := [f'{LOST[each.status]} with "{gravity}"' for gravity, each in runs.items() if each.status in LOST]:
         return Row("Release", name, NOT_ESTIMATED, f"this run {' and '.join(lost)}", "")
+    if all(each.status is Status.no_slide for each in runs.values()):
+        both = " and with ".join(f'"{by}"' for by in runs)
+        return Row("Release", name, "no slide", f"the slope stands with {both}", "")
     own, other = (each.runout(results.front) for each in runs.values())
     share = f" ({100 * (other / own - 1):+.1f} %)" if own > 0 else ""
     both = ", ".join(f'{at_least(each)}{each.runout(results.front):.2f} m with "{by}"' for by, each in runs.items())

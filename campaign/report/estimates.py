@@ -1,5 +1,7 @@
 """The numbers of the answer with their intervals, a function for each: for words, tables and figures alike."""
 
+import math
+
 from campaign.results.results import Results
 from campaign.statistics import proportions
 from campaign.statistics.intervals import Interval, is_least_quantile, mean_interval, quantile_interval, std_interval
@@ -40,6 +42,11 @@ def quantile_runout(results: Results, share: float) -> Interval:
 def is_least(results: Results, share: float) -> bool:
     """Whether that distance would be larger, had slides that were cut short come farther."""
     return is_least_quantile(results.slide_runouts, share, results.outcomes.is_cut_short)
+
+
+def is_open(results: Results, distance: Interval, share: float) -> bool:
+    """Whether slides that were cut short leave that distance without an upper bound."""
+    return is_least(results, share) and not math.isfinite(distance.upper)
 
 
 def total_quantile(results: Results, share: float) -> Interval:

@@ -92,7 +92,7 @@ def _runouts(results: Results) -> list[Tile]:
 def _runout(results: Results, name: str, share: float) -> Tile:
     total = estimates.total_quantile(results, share)
     form = ".1f" if total.estimate >= 1 else ".2f"
-    least = "at least " if _is_open(results, total, share) else ""
+    least = "at least " if estimates.is_open(results, total, share) else ""
     return Tile(name, f"{least}{total.estimate:{form}} m", bounds(total, "m", form), _remark(results, total, share))
 
 
@@ -102,13 +102,8 @@ def _remark(results: Results, total: Interval, share: float) -> str:
     return "; ".join(filter(None, [_bounds_known(results, total, share), raised]))
 
 
-def _is_open(results: Results, total: Interval, share: float) -> bool:
-    """Whether slides that were cut short leave a distance without an upper bound."""
-    return estimates.is_least(results, share) and not math.isfinite(total.upper)
-
-
 def _bounds_known(results: Results, total: Interval, share: float) -> str:
-    if _is_open(results, total, share):
+    if estimates.is_open(results, total, share):
         return f"lower bound: {in_one_clause(causes(results))}"
     if estimates.is_least(results, share):
         return f"the interval allows for {counted(results.outcomes.cut_short, 'slide')} cut short"

@@ -36,10 +36,9 @@ def _moved(results: Results, quantity: str) -> Distribution:
     """Return how much of the ground moves, and in how many slides there would be more of it."""
     values, causes = results.of_slides(quantity), _would_be_more(results, quantity)
     told = [f"in {counted(n, 'slide')} {why}" for why, which in causes.items() if (n := int(np.count_nonzero(which)))]
-    name = MOVEMENT[quantity].format_map(dict(results.scene.slide))
-    name += f" (at least: {listing(told)})" if told else ""
-    is_least = np.logical_or.reduce([*causes.values()])
-    return distribution(name, values, results.data[quantity].units, results.confidence, is_least)
+    name, unit = MOVEMENT[quantity].format_map(dict(results.scene.slide)), results.data[quantity].units
+    row = distribution(name, values, unit, results.confidence, np.logical_or.reduce([*causes.values()]))
+    return row._replace(remark=f"at least: {listing(told)}" if told else "")
 
 
 def _would_be_more(results: Results, quantity: str) -> dict[str, NDArray[np.bool_]]:
@@ -62,9 +61,6 @@ def _would_be_more(results: Results, quantity: str) -> dict[str, NDArray[np.bool
 def _rest(results: Results) -> Distribution:
     """Return when slides come to rest; those that still move at the end do so later than all others."""
     stopped = results.outcomes.hindered
-    hindered = (
-        f" (in {counted(stopped, 'slide')} as a wall stopped {'it' if stopped == 1 else 'them'})" if stopped else ""
-    )
     times = np.nan_to_num(results.of_slides("settle_time"), nan=STILL_MOVING)
     columns: list[str] = []
     for share in QUANTILES:
@@ -73,7 +69,8 @@ def _rest(results: Results) -> Distribution:
         is_later = np.isnan(estimate)
         columns += ["later than the end" if is_later else number(estimate, "s")]
         columns += ["" if is_later else bounds(Interval(estimate, lower, upper, interval.n), "s")]
-    return Distribution(f"{REST}{hindered}", *columns)
+    remark = f"in {counted(stopped, 'slide')} with a wall in the way" if stopped else ""
+    return Distribution(REST, *columns)._replace(remark=remark)
 
 
 def stillness(results: Results) -> list[Distribution]:

@@ -147,7 +147,9 @@ def _pushed(with_ahead: NDArray[np.bool_], with_front: NDArray[np.bool_]) -> str
     if not slides:
         return ""
     told = f"In {counted(slides, 'slide')} with ground here that is pushed or thrown ahead of the front"
-    return f"{told}, which in {alone:,} of them does not come" if alone else told
+    if not alone:
+        return told
+    return f"{told}, which {'does not come' if alone == slides else f'in {alone:,} of them does not come'}"
 
 
 def _distributions(

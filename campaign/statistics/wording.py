@@ -53,7 +53,7 @@ def so_far(outcomes: Outcomes) -> str:
 
 def chance_of_slide(probability: Interval) -> str:
     """Say how probable a slide is, to follow "the probability of a slide is": "at most 7.1 %", "35 to 55 %"."""
-    if probability.estimate == 0:
+    if probability.estimate == 0 and not is_open(probability):
         return f"at most {chance(probability.upper)}"
     if probability.estimate == 1:
         return f"at least {chance(probability.lower)}"

@@ -35,10 +35,17 @@ def exceedance(results: Results, curve: Curve) -> Illustration:
     caption = (
         f"Probability of a run-out beyond a distance, counted in {counted(results.outcomes.usable, 'realization')} "
         f"with {n} slides, with its interval; without a slide the run-out is zero. Nothing was seen beyond "
-        f"{longest:.2f} m; that alone leaves a probability of up to {chance(curve.upper[-1])}."
+        f"{longest:.2f} m; {_left_open(results, curve)}."
     )
     alt = f"Falling curve of the probability from {chance(curve.estimate[0])} to zero at {longest:.2f} m."
     return Illustration(figure, caption, alt)
+
+
+def _left_open(results: Results, curve: Curve) -> str:
+    """Say how probable it is for all that that a slide runs farther than the longest."""
+    most = f"leaves a probability of up to {chance(curve.upper[-1])}"
+    cut_short = results.outcomes.cut_short
+    return f"with {counted(cut_short, 'slide')} cut short before that {most}" if cut_short else f"that alone {most}"
 
 
 def draw_curve(axes: Axes, curve: Curve, label: str, origin: float = 0.0) -> None:

@@ -57,7 +57,7 @@ def _inputs(axes: Axes, effects: InputEffects) -> str:
 def _properties(axes: Axes, found: Ranking, named: list[str]) -> str:
     _bars(axes, named, found.correlation, 0.35, BLUE, -0.19, "rank correlation")
     _bars(axes, named, found.regression, 0.35, ORANGE, 0.19, "regression on all together")
-    axes.set(xlabel="correlation or coefficient (-)", xlim=(-1, 1))
+    axes.set(xlabel="correlation or coefficient (-)", xlim=(-1, 1), xticks=[-1, -0.5, 0, 0.5, 1])
     axes.legend(loc="upper center", bbox_to_anchor=(0.3, -0.35), ncols=2)
     return (
         "Rank correlation with the mean of each random property over the ground that moves, and, where all of them are "

@@ -39,8 +39,11 @@ def _stops(results: Results, section: Section, words: str) -> list[Label]:
     marks = []
     for share, name in STOPS.items():
         reach = estimates.total_quantile(results, share)
-        told = f"{name} stop before {reach.estimate:.2f} m from the toe, {bounds(reach, 'm', '.2f')}"
-        marks.append(Label(toe_x + reach.estimate, toe_y, name + words, BLUE, told))
+        is_open = estimates.is_open(results, reach, share)
+        least = "at least " if is_open else ""
+        told = f"{name} stop within {least}{reach.estimate:.2f} m from the toe, {bounds(reach, 'm', '.2f')}"
+        label = name + words.replace("before", "here or farther" if is_open else "before")
+        marks.append(Label(toe_x + reach.estimate, toe_y, label, BLUE, told))
     return marks if results.outcomes.slides > 1 else []
 
 

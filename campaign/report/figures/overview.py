@@ -118,7 +118,9 @@ def _mesh(results: Results) -> str:
 def _alt(results: Results, section: Section) -> str:
     if not results.outcomes.slides:
         return "Cross-section of the slope, which has not slid."
-    median = estimates.quantile_runout(results, 0.5).estimate
-    return f"Cross-section of the slope; half of the slides stop within {median:.1f} m of the toe, at x = " + (
-        f"{section.surface.toe[0] + median:.1f} m."
+    reach = estimates.quantile_runout(results, 0.5)
+    least, x = "at least " if estimates.is_open(results, reach, 0.5) else "", section.surface.toe[0] + reach.estimate
+    return (
+        f"Cross-section of the slope; half of the slides stop within {least}{reach.estimate:.1f} m of the toe, at x = "
+        f"{x:.1f} m."
     )

@@ -163,14 +163,12 @@ def test_where_there_would_be_more_behind_the_crest_it_is_a_lower_bound():
         np.arange(1.0, 21.0), [Status.slid] * 20, rest=[np.nan] * 2 + [5.0] * 18, influence=[6.0] * 17 + [20.0] * 3
     )
     volume, lost, moved, rest = movement(given)
-    told = "(at least: in 2 slides still moving at the end)"
-    assert volume.name == f"ground that moves by more than 0.1 m, per metre of width {told}"
-    assert lost.name == f"length lost behind the crest, moved by more than 1 m {told}"
-    assert moved.name == (
-        "length behind the crest that moves by more than 0.1 m (at least: in 3 slides to the wall of the model and in "
-        "2 slides still moving at the end)"
-    )
-    assert rest.name == REST
+    told = "at least: in 2 slides still moving at the end"
+    assert (volume.name, volume.remark) == ("ground that moves by more than 0.1 m, per metre of width", told)
+    assert (lost.name, lost.remark) == ("length lost behind the crest, moved by more than 1 m", told)
+    assert moved.name == "length behind the crest that moves by more than 0.1 m"
+    assert moved.remark == ("at least: in 3 slides to the wall of the model and in 2 slides still moving at the end")
+    assert (rest.name, rest.remark) == (REST, "")
 
 
 def test_what_moves_in_slides_that_a_wall_stopped_is_at_least_so_much():
@@ -179,10 +177,9 @@ def test_what_moves_in_slides_that_a_wall_stopped_is_at_least_so_much():
         np.arange(1.0, 21.0), [Status.reached_wall] * 10 + [Status.slid] * 10, influence=[*np.arange(1.0, 11.0)] * 2
     )
     volume, lost, moved, rest = movement(given)
-    told = "(at least: in 10 slides that a wall stopped)"
-    assert volume.name == f"ground that moves by more than 0.1 m, per metre of width {told}"
-    assert lost.name == f"length lost behind the crest, moved by more than 1 m {told}"
+    assert volume.remark == lost.remark == moved.remark == "at least: in 10 slides that a wall stopped"
+    assert (volume.median, lost.median) == ("at least 1.00 m³/m", "at least 1.00 m")
     assert (moved.median, moved.median_interval) == ("at least 5.50 m", "at least 3.00 m")
-    assert rest.name == "time from release to rest (in 10 slides as a wall stopped them)"
+    assert rest.remark == "in 10 slides with a wall in the way"
     free = movement(results(np.arange(1.0, 21.0), [Status.slid] * 20, influence=[*np.arange(1.0, 11.0)] * 2))
     assert (free[2].median, free[2].median_interval) == ("5.50 m", "3.00 to 8.00 m")

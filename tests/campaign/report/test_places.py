@@ -67,7 +67,7 @@ def test_what_comes_ahead_of_the_front_is_told_apart():
     (place,) = places(results([1, 0, 0, 0], [1] * 4))
     assert place.slides == 1
     assert place.pushed == (
-        "In 3 slides with ground here that is pushed or thrown ahead of the front, which in 3 of them does not come"
+        "In 3 slides with ground here that is pushed or thrown ahead of the front, which does not come"
     )
     assert (place.ahead[0].name, place.ahead[0].median) == ("largest depth", "3.00 m")
     assert place.ahead[-1].name == "final rise of the ground where the front does not come"
@@ -114,3 +114,10 @@ def test_fronts_that_came_back_are_why_a_place_counts_more_than_the_table():
     assert ended_or_was_there(Results(stayed, HOUSE)) == ""
     tip = small_scene('receptor=[{name="house", x="42 m"}]', "slide.front=tip")
     assert "front-most particle" in ended_or_was_there(Results(data, tip))
+
+
+def test_a_place_that_walls_keep_every_front_from_has_no_interval_that_says_nothing():
+    given = results([0] * 4, [1] * 4)
+    status = ("realization", np.full(4, int(Status.reached_wall)))
+    (tile,) = headline.reaches(Results(given.data.assign(status=status), given.scene))
+    assert (tile.value, tile.interval) == ("front not known, moved ground 100 %", "0 to 100 %")

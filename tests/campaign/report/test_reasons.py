@@ -90,6 +90,7 @@ def test_many_slides_cut_short_leave_no_upper_bound(twenty):
     assert "Single slides, as far as they came, scatter by a standard deviation of 0.12 m; the shortest" in told
     assert "the longest at least 10.38 m" in told
     (total,) = by_source(ended(twenty, stopped=[0], moving=[19]), "Total")
+    assert total.value == "at least 10.19 m"
     assert total.interval == f"at least {lower:.2f} m"
 
 
@@ -200,14 +201,25 @@ def test_what_is_said_of_some_realizations_is_not_said_of_all(twenty):
 
 
 def test_who_is_told_to_ask_for_a_rarer_slide_is_told_to_raise_the_realizations_too(twenty):
-    """368 without a slide bound it by 1 %; of the 20 that are asked for at most, 20 of 20 bound it by 17 %."""
+    """368 without a slide bound it by 1 %, and are looked at where blocks of 25 end."""
 
-    def told(maximum):
+    def told(maximum, block=1):
         stands = {"status": ("realization", np.full(60, int(Status.no_slide)))}
         given = twenty.data.isel(realization=np.arange(60) % 20).assign_coords(realization=np.arange(60)).assign(stands)
-        return answer(Results(given, small_scene(f"campaign.realizations={maximum}")))
+        return answer(Results(given, small_scene(f"campaign.realizations={maximum}", f"campaign.block={block}")))
 
     advice = "ask for campaign.slide_probability_tolerance = 0.005, which is half of that"
     assert f"{advice}, and raise campaign.realizations to 368 or more." in told(60)
+    assert f"{advice}, and raise campaign.realizations to 375 or more." in told(368, block=25)
     assert f"{advice}. " in told(368)
     assert "campaign.realizations" not in told(368)
+
+
+def test_a_slope_that_stands_however_it_begins_has_no_change_of_its_run_out(twenty):
+    stands = {
+        "other_release_final_runout": ((), 0.0),
+        "other_release_final_runout_mass": ((), 0.0),
+        "other_release_status": ((), int(Status.no_slide)),
+    }
+    (row,) = by_source(ended(twenty, baseline=Status.no_slide, **stands), "Release")
+    assert (row.value, row.interval) == ("no slide", 'the slope stands with "release" and with "ramp"')
