@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from campaign.record import SLID
+from campaign.report.cut_short import at_least
 from campaign.report.distances import round_step
 from campaign.report.figures.domains import covering
 from campaign.report.figures.particles import rectangles
@@ -101,7 +102,7 @@ def films(replayed: Replays, section: Section) -> list[Film]:
 def _film(title: str, slide: ReplayedSlide, replayed: Replays, section: Section) -> Film:
     unit = section.right / UNITS
     ground, shots = replayed.ground, [slide.at(time) for time in replayed.times]
-    shots[-1] = slide.end
+    shots[-1], end = slide.end, _caption(slide.end, at_least(slide.record))
     moving = moving_areas(ground, shots, section)
     never = ~moving.covers & (ground.lattice.x < section.right)
     frames = [frame_of(ground, section, moving, shot) for shot in shots]
@@ -115,12 +116,10 @@ def _film(title: str, slide: ReplayedSlide, replayed: Replays, section: Section)
         "surfaces": _packed(surfaces / unit, "<i2"),
         "x": np.round(x / unit).astype(int).tolist(),
         "half": 0.53 * moving.side / unit,
-        "captions": [_caption(shot) for shot in shots],
+        "captions": [*(_caption(shot) for shot in shots[:-1]), end],
     }
     line = "L".join(f"{a:.0f} {b:.0f}" for a, b in zip(x / unit, surfaces[-1] / unit, strict=True))
-    return Film(
-        title, _path(still[0] / unit), _last(frames[-1], moving.side, unit), f"M{line}", _caption(slide.end), data
-    )
+    return Film(title, _path(still[0] / unit), _last(frames[-1], moving.side, unit), f"M{line}", end, data)
 
 
 def _surface(ground: Ground, shot: Snapshot) -> Array:
@@ -145,5 +144,5 @@ def _packed(values: Array | NDArray[np.intp], dtype: str) -> str:
     return base64.b64encode(whole.tobytes()).decode()
 
 
-def _caption(shot: Snapshot) -> str:
-    return f"{shot.time:.1f} s after release, run-out {shot.runout:.3g} m"
+def _caption(shot: Snapshot, least: str = "") -> str:
+    return f"{shot.time:.1f} s after release, run-out {least}{shot.runout:.3g} m"

@@ -8,7 +8,7 @@ from campaign.statistics.intervals import Interval
 SHOWN = {"Pa": ("kPa", 1e-3), "N/m": ("kN/m", 1e-3), "m3/m": ("m³/m", 1.0)}
 """Units in which numbers are read more easily, and how many of them the SI unit is."""
 
-NUMBER_AND_UNIT = re.compile(r"(?<=\d) (?=%|(?:m|s|kPa|kN/m|m/s|m³/m)\b)")
+NUMBER_AND_UNIT = re.compile(r"(?<=\d) (?=%|(?:mm|m|s|kPa|kN/m|m/s|m³/m)\b)")
 
 
 def unbroken(text: str) -> str:

@@ -1,6 +1,7 @@
 """The deterministic slide on its way."""
 
 from campaign.record import FAILED, Status
+from campaign.report.cut_short import at_least
 from campaign.report.figures.particles import Scale
 from campaign.report.figures.section import Section
 from campaign.report.figures.stack import OUTLINE, colour_bar, draw_slide, stack, upper_limit
@@ -23,5 +24,6 @@ def configurations(section: Section, ground: Ground, slide: ReplayedSlide) -> Il
     caption = f"The slide with mean strengths everywhere, coloured by displacement. {OUTLINE}"
     if slide.record.status in FAILED:
         caption += f" It failed then: {slide.record.reason}"
-    alt = f"Cross-sections of the slope at {len(shots)} times; the final run-out is {slide.end.runout:.2f} m."
+    final = f"{at_least(slide.record)}{slide.end.runout:.2f} m"
+    alt = f"Cross-sections of the slope at {len(shots)} times; the final run-out is {final}."
     return Illustration(figure, caption, alt)

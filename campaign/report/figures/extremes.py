@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from campaign.report.cut_short import at_least
 from campaign.report.figures.particles import Scale
 from campaign.report.figures.section import Section
 from campaign.report.figures.stack import OUTLINE, colour_bar, draw_slide, stack, upper_limit
@@ -22,7 +23,9 @@ def extremes(section: Section, ground: Ground, slides: Mapping[str, ReplayedSlid
         draw_slide(panel, section, ground, slide.end, slide.end.plastic_strain, scale)
     letter(panels, [f"{called}: realization {slide.realization}" for called, slide in slides.items()])
     colour_bar(figure, panels, scale, "plastic strain (-)")
-    named = listing([f"{called} ({slide.end.runout:.2f} m)" for called, slide in slides.items()])
+    named = listing(
+        [f"{called} ({at_least(slide.record)}{slide.end.runout:.2f} m)" for called, slide in slides.items()]
+    )
     caption = (
         f"The end of the slide with the {named} run-out. Dark is where the ground has sheared most, its slip surfaces "
         f"(plastic strain; the largest value is {strain.max():.2g}). {OUTLINE}"

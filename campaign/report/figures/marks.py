@@ -42,7 +42,7 @@ def _stops(results: Results, section: Section, words: str) -> list[Label]:
         is_open = estimates.is_open(results, reach, share)
         least = "at least " if is_open else ""
         told = f"{name} stop within {least}{reach.estimate:.2f} m from the toe, {bounds(reach, 'm', '.2f')}"
-        label = name + words.replace("before", "here or farther" if is_open else "before")
+        label = name + words.replace(" before", ": at least here" if is_open else " before")
         marks.append(Label(toe_x + reach.estimate, toe_y, label, BLUE, told))
     return marks if results.outcomes.slides > 1 else []
 

@@ -154,7 +154,7 @@ def test_units_are_those_of_a_reader():
     assert number(np.nan, "m") == "–"
     assert bounds(Interval(1.0, 0.5, np.nan, 9), "m") == "at least 0.500 m"
     assert bounds(Interval(1.0, np.nan, np.nan, 1), "m") == "too few slides for an interval"
-    assert unbroken("5 m and 3 men") == "5\u00a0m and 3 men"
+    assert unbroken("5 m, 2 mm and 3 men") == "5\u00a0m, 2\u00a0mm and 3 men"
 
 
 def test_where_there_would_be_more_behind_the_crest_it_is_a_lower_bound():

@@ -7,6 +7,7 @@ import matplotlib.image
 import numpy as np
 import pytest
 import xarray as xr
+from scipy import special
 from small_campaign import small_scene
 
 import campaign
@@ -16,6 +17,7 @@ from campaign.report.figures import exceedance as of_exceedance
 from campaign.report.figures.convergence import convergence
 from campaign.report.figures.curves import curves
 from campaign.report.figures.histogram import histogram
+from campaign.report.figures.marks import marks
 from campaign.report.figures.section import section_of
 from campaign.report.figures.stack import upper_limit
 from campaign.report.figures.style import NotDrawableError, in_style, new_figure
@@ -145,3 +147,24 @@ def test_ranks_are_by_runout_among_the_usable():
 def test_no_figure_opens_a_window():
     package = Path(campaign.__file__).parent
     assert not any("pyplot" in path.read_text() for path in package.rglob("*.py"))
+
+
+def test_what_is_left_open_beyond_the_longest_slide_is_told_with_those_cut_short():
+    """Of 40 slides 39 stay short of the longest; 10 of them were cut short. Exact: up to 8.8 % and 43 %."""
+    assert "m; that alone leaves a probability of up to 8.8 %." in exceedance(results(NORMAL)).caption
+    statuses = [Status.not_settled] * 10 + [Status.slid] * 30
+    told = exceedance(results(NORMAL, statuses)).caption
+    assert f"with 10 slides cut short before that leaves a probability of up to {upper(10, 40)}." in told
+
+
+def test_marks_where_slides_stop_say_at_least_where_walls_leave_them_open():
+    walled = results(NORMAL, [Status.slid] * 30 + [Status.reached_wall] * 10)
+    half, far = marks(walled, section_of(SCENE, NORMAL), has_room=True)[2:4]
+    assert (half.text, far.text) == ("half stop before", "95 % stop: at least here")
+    free = marks(results(NORMAL), section_of(SCENE, NORMAL), has_room=True)
+    assert [label.text for label in free[2:4]] == ["half stop before", "95 % stop before"]
+
+
+def upper(count, n):
+    """Return the exact upper bound of a proportion in words."""
+    return f"{100 * special.betaincinv(count + 1, n - count, 0.975):.0f} %"

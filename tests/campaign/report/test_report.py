@@ -17,6 +17,9 @@ from campaign.report import page as page_module
 from campaign.report import replays
 from campaign.report.answer import answer
 from campaign.report.error_budget import error_budget
+from campaign.report.figures.extremes import extremes
+from campaign.report.figures.section import section_of
+from campaign.report.figures.style import in_style
 from campaign.report.page import write_report
 from campaign.report.provenance import doubts_about
 from campaign.report.snapshots import FRAMES, replay
@@ -190,6 +193,17 @@ def test_the_runout_in_a_drawing_is_the_recorded_one_whatever_counts_as_a_slide(
     ground = prepare(small_scene("slide.displaced=8 m", "slide.failed=9 m", "numerics.end_time=3 s"))
     seen = replay(ground, BASELINE)
     assert seen.end.runout == seen.record.values["final_runout"] == 0.0
+
+
+def test_the_runout_below_a_drawing_of_a_slide_cut_short_is_at_least_so_much():
+    """At 4 s the front is on its way."""
+    scene = small_scene("numerics.end_time=4 s")
+    ground = prepare(scene)
+    seen = replay(ground, BASELINE)
+    assert seen.record.status is Status.not_settled
+    with in_style():
+        drawn = extremes(section_of(scene, [seen.end.runout]), ground, {"only": seen})
+    assert f"the only (at least {seen.end.runout:.2f} m) run-out" in drawn.caption
 
 
 def test_the_page_needs_nothing_from_outside(page):
