@@ -18,15 +18,16 @@ def from_all_models(results: Results) -> str:
     reached = reached_of(results.data)
     if reached is None:
         return ""
-    mean, change, total = reached.limit
+    mean, change, _ = reached.limit
     asked = results.scene.campaign.accuracy
     met = f"{asked} were asked" if reached.is_reached else f"not the {asked} that were asked"
     return " ".join(
         filter(
             None,
             [
-                f"The slide runs {mean.estimate:.2f} m on average, {metres(total)} with {100 * results.confidence:g} % "
-                f"confidence for sampling and mesh together: {error_of(reached.limit)}, {met}.",
+                f"The slide runs {at_least(reached)}{mean.estimate:.2f} m on average, {metres(reached.total)} with "
+                f"{100 * results.confidence:g} % confidence for sampling and mesh together: "
+                f"{error_of(reached.limit)}, {met}.",
                 f"That is the mean with cells of {reached.cells[0]:g} m, sampling ±{mean.half_width:.2f} m; the last "
                 f"halving of the cell changed it by {change.estimate:+.2f} ± {change.half_width:.2f} m, and the "
                 "interval holds as much again in either direction.",
@@ -36,6 +37,11 @@ def from_all_models(results: Results) -> str:
             ],
         )
     )
+
+
+def at_least(reached: Reached) -> str:
+    """Return what to put before the mean: "at least " where more than a few runs were cut short."""
+    return "" if reached.bounds_the_mean else "at least "
 
 
 def _cut_short(reached: Reached) -> str:

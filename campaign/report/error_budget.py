@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from campaign.record import FAILED, UNHINDERED, Status
-from campaign.report import estimates
+from campaign.report import aimed, estimates
 from campaign.report.cut_short import at_least, causes
 from campaign.results.accuracy import reached_of
 from campaign.results.results import Results
@@ -62,11 +62,12 @@ def _aimed(results: Results) -> list[Row]:
     reached = reached_of(results.data)
     if reached is None:
         return []
-    mean, change, total = reached.limit
+    mean, change, _ = reached.limit
+    value = f"{aimed.at_least(reached)}{mean.estimate:.2f} m"
     cell, n = reached.cells[0], str(mean.n)
     name = "mean run-out of a slide, from all meshes and models"
     return [
-        Row("Total", f"{name}, sampling and mesh", f"{total.estimate:.2f} m", metres(total), n),
+        Row("Total", f"{name}, sampling and mesh", value, metres(reached.total), n),
         Row("Sampling", f"{name}, with cells of {cell:g} m", f"{mean.estimate:.2f} m", metres(mean), n),
         Row("Discretisation", f"{name}, changed by cells of {cell:g} m", *_signed(change), n),
     ]

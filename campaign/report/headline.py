@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from campaign.report import estimates
+from campaign.report.aimed import at_least
 from campaign.report.cut_short import causes, in_one_clause
 from campaign.report.places import Reach, reach_estimates
 from campaign.report.raised import goes_ahead
@@ -40,10 +41,15 @@ def _aimed(results: Results) -> list[Tile]:
     reached = reached_of(results.data)
     if reached is None:
         return []
-    mean = reached.limit.total
+    mean = reached.total
     remark = f"cells down to {reached.cells[0]:g} m; all else was counted with {results.scene.numerics.cell:g} m alone"
     return [
-        Tile("The front of a slide stops on average at", f"{mean.estimate:.2f} m", bounds(mean, "m", ".2f"), remark)
+        Tile(
+            "The front of a slide stops on average at",
+            f"{at_least(reached)}{mean.estimate:.2f} m",
+            bounds(mean, "m", ".2f"),
+            remark,
+        )
     ]
 
 

@@ -1,5 +1,6 @@
 """What came of a campaign with an accuracy as its aim, as variables of the dataset and back."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ from campaign.accuracy.pursuit import Pursuit
 from campaign.accuracy.settings import Models
 from campaign.results.variables import Variables, variable
 from campaign.statistics.intervals import Interval
+from campaign.statistics.outcomes import FEW
 
 METHOD = (
     "sequential regression over nested realizations of all models (Anderson 1957; multilevel and multifidelity Monte "
@@ -40,6 +42,16 @@ class Reached(NamedTuple):
     counts: tuple[int, ...]
     cut_short: tuple[int, ...]
     seconds: tuple[float, ...]
+
+    @property
+    def bounds_the_mean(self) -> bool:
+        """Whether so few runs on the finest mesh were cut short that the mean has an upper bound worth its name."""
+        return self.cut_short[0] <= FEW * self.counts[0]
+
+    @property
+    def total(self) -> Interval:
+        """The mean with its interval for sampling and mesh, in m."""
+        return self.limit.total if self.bounds_the_mean else self.limit.total._replace(upper=math.inf)
 
 
 def of_pursuit(found: Pursuit, models: Models) -> Variables:
