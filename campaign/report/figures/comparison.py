@@ -6,6 +6,7 @@ from matplotlib.axes import Axes
 from campaign.comparison.scenarios import Comparison
 from campaign.report.figures.style import BLACK, BLUE, GREEN, GREY, ORANGE, Illustration, letter, new_figure
 from campaign.statistics.intervals import Sample
+from campaign.terminal import listing
 
 COLOURS = (BLACK, BLUE, ORANGE, GREEN, "#CC79A7", "#56B4E9", "#E69F00")
 """Of the first scenario, and of the others by turns."""
@@ -21,10 +22,16 @@ def comparison(given: Comparison) -> Illustration:
     caption = (
         f"(a) Final run-out of {others} against that of {first} in the same {len(given.ids)} realizations: what lies "
         f"below the dashed line runs less far than in {first}. (b) Share of realizations that run farther than a "
-        "distance. Without a slide the run-out is 0 m."
+        f"distance. Without a slide the run-out is 0 m{_cut_short(given)}."
     )
     alt = f"Scatter of the run-outs of {others} over those of {first}, and falling curves of the exceedance of each."
     return Illustration(figure, caption, alt)
+
+
+def _cut_short(given: Comparison) -> str:
+    """Say of which campaigns many run-outs are lower bounds, to follow a sentence."""
+    cut = [name for scenario, name in enumerate(given.names) if given.is_cut_short(scenario)]
+    return f"; slides of {listing(cut)} that were cut short are drawn as far as they came" if cut else ""
 
 
 def _pairs(axes: Axes, given: Comparison) -> None:

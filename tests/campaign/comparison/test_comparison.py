@@ -12,6 +12,7 @@ from campaign.comparison.scenarios import compare
 from campaign.comparison.table import as_text
 from campaign.errors import RefusalError
 from campaign.record import Status
+from campaign.report.figures.comparison import comparison as draw_comparison
 from campaign.statistics.paired import mean_difference
 
 RUNOUTS = np.random.default_rng(1).normal(10.0, 1.0, 12)
@@ -132,6 +133,7 @@ def test_between_two_campaigns_cut_short_a_difference_is_open(tmp_path):
     ]
     assert "open" in mean
     assert mean.count("at least") == 2
+    assert "slides of a and b that were cut short are drawn as far as they came." in draw_comparison(given).caption
 
 
 def test_receptors_of_one_name_at_two_places_are_told_apart(tmp_path):
