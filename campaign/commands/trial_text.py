@@ -10,6 +10,7 @@ from campaign.scene import Scene
 from campaign.scene.sections import Receptor
 from campaign.simulation.flags import with_remedy
 from campaign.simulation.trial import Trial
+from campaign.statistics.wording import at_least
 from campaign.terminal import listing
 
 
@@ -33,8 +34,8 @@ def _outcome(made: Trial) -> str:
     moves = "still moves at the end of the run" + (", behind its front" if record.status is Status.slid else "")
     how = f"comes to rest after {made.rest:.2g} s" if isfinite(made.rest) else moves
     is_hindered = record.status is Status.reached_wall
-    least, stopped = ("at least ", ", and a wall of the model hindered it") if is_hindered else ("", "")
-    where = f"its front is {least}{made.runout:.3g} m beyond the toe, at x = {made.front:.4g} m{stopped}"
+    stopped = ", and a wall of the model hindered it" if is_hindered else ""
+    where = f"its front is {at_least(record)}{made.runout:.3g} m beyond the toe, at x = {made.front:.4g} m{stopped}"
     return f"The slope slides and {how}; {where}.{_receptors(made)}"
 
 

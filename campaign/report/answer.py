@@ -10,14 +10,14 @@ import numpy as np
 from campaign.record import Status
 from campaign.report import estimates
 from campaign.report.aimed import from_all_models, is_aimed
-from campaign.report.cut_short import Cause, at_least, causes, in_one_clause
+from campaign.report.cut_short import Cause, causes, in_one_clause
 from campaign.results.results import Results
 from campaign.simulation.flags import with_remedy
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import results_to_bound
 from campaign.statistics.stopping import RARE
 from campaign.statistics.total import has_mesh_error
-from campaign.statistics.wording import chance, chance_of_slide, chances, estimated_chance, metres, so_far
+from campaign.statistics.wording import at_least, chance, chance_of_slide, chances, estimated_chance, metres, so_far
 from campaign.terminal import as_sentence, counted
 
 OUTCOMES = {

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from campaign.record import LOWER_BOUND, RealizationSummary, Record, Status
+from campaign.record import Status
 from campaign.results.results import Results
 from campaign.scene import more_ground
 from campaign.simulation.flags import AHEAD_WALL, CREST_WALL
@@ -52,11 +52,6 @@ def causes(results: Results) -> list[Cause]:
 def in_one_clause(found: list[Cause]) -> str:
     """Return all causes in one clause."""
     return " and ".join(cause.told for cause in found)
-
-
-def at_least(run: RealizationSummary | Record) -> str:
-    """Return what to put before the run-out of a run: "at least " where that was cut short."""
-    return "at least " if run.status in LOWER_BOUND else ""
 
 
 def _wall(results: Results) -> tuple[str, str]:

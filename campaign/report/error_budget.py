@@ -6,14 +6,14 @@ import numpy as np
 
 from campaign.record import FAILED, UNHINDERED, Status
 from campaign.report import aimed, estimates
-from campaign.report.cut_short import at_least, causes
+from campaign.report.cut_short import causes
 from campaign.results.accuracy import reached_of
 from campaign.results.results import Results
 from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import failure_bounds
 from campaign.statistics.total import has_mesh_error
-from campaign.statistics.wording import chance, chances, estimated_chance, metres, so_far
+from campaign.statistics.wording import at_least, chance, chances, estimated_chance, metres, so_far
 from campaign.terminal import counted
 
 NOT_ESTIMATED = "not estimated"

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from campaign.record import SLID
-from campaign.report.cut_short import at_least
 from campaign.report.distances import round_step
 from campaign.report.figures.domains import covering
 from campaign.report.figures.particles import rectangles
@@ -17,6 +16,7 @@ from campaign.report.replays import Replays
 from campaign.report.snapshots import ReplayedSlide, Snapshot
 from campaign.simulation.ground import Ground
 from campaign.simulation.solver_model import Array, column_edges
+from campaign.statistics.wording import at_least
 from solver.observables import deposit_surface
 
 UNITS: Final = 4000

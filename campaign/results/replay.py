@@ -12,6 +12,7 @@ from campaign.scene import kept_scene
 from campaign.seeds import BASELINE
 from campaign.simulation.ground import Ground, prepare
 from campaign.simulation.solver_model import Array
+from campaign.statistics.wording import at_least
 from campaign.storage import manifest
 from campaign.storage.access import check_digest
 from campaign.storage.layout import REPLAY, replay_file
@@ -93,10 +94,10 @@ def comparison(record: Record, kept: Record | None) -> str:
     name = "The deterministic run" if record.realization == BASELINE else f"Realization {record.realization}"
     runout = float(record.values["final_runout"])
     if kept is None:
-        return f"{name} has no record to compare with; its final run-out is {runout:.3f} m."
+        return f"{name} has no record to compare with; its final run-out is {at_least(record)}{runout:.3f} m."
     different = differing(record, kept)
     if not different:
-        return f"{name} is the recorded one, bit for bit; its final run-out is {runout:.3f} m."
+        return f"{name} is the recorded one, bit for bit; its final run-out is {at_least(record)}{runout:.3f} m."
     found = f"its final run-out is {runout!r} m, recorded {float(kept.values['final_runout'])!r} m"
     if "final_runout" not in different:
         found = f"its final run-out is still {runout:.3f} m, bit for bit"

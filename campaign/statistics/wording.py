@@ -2,6 +2,7 @@
 
 import math
 
+from campaign.record import LOWER_BOUND, RealizationSummary, Record
 from campaign.statistics.intervals import Interval
 from campaign.statistics.outcomes import Outcomes
 
@@ -44,6 +45,11 @@ def metres(interval: Interval) -> str:
     if math.isinf(interval.upper):
         return f"at least {interval.lower:.2f} m"
     return f"{interval.lower:.2f} to {interval.upper:.2f} m" if interval.is_known else "not enough slides"
+
+
+def at_least(run: RealizationSummary | Record) -> str:
+    """Return what to put before the run-out of a run: "at least " where that was cut short."""
+    return "at least " if run.status in LOWER_BOUND else ""
 
 
 def so_far(outcomes: Outcomes) -> str:

@@ -1,13 +1,13 @@
 """The deterministic slide on its way."""
 
 from campaign.record import FAILED, Status
-from campaign.report.cut_short import at_least
 from campaign.report.figures.particles import Scale
 from campaign.report.figures.section import Section
 from campaign.report.figures.stack import OUTLINE, colour_bar, draw_slide, stack, upper_limit
 from campaign.report.figures.style import Illustration, letter, need
 from campaign.report.snapshots import TIMES, ReplayedSlide
 from campaign.simulation.ground import Ground
+from campaign.statistics.wording import at_least
 
 
 def configurations(section: Section, ground: Ground, slide: ReplayedSlide) -> Illustration:

@@ -4,13 +4,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from campaign.report.cut_short import at_least
 from campaign.report.figures.particles import Scale
 from campaign.report.figures.section import Section
 from campaign.report.figures.stack import OUTLINE, colour_bar, draw_slide, stack, upper_limit
 from campaign.report.figures.style import Illustration, letter
 from campaign.report.snapshots import ReplayedSlide
 from campaign.simulation.ground import Ground
+from campaign.statistics.wording import at_least
 from campaign.terminal import listing
 
 

@@ -3,11 +3,10 @@
 import numpy as np
 
 from campaign.report import estimates
-from campaign.report.cut_short import at_least
 from campaign.report.figures.style import BLACK, BLUE, COLUMN, GREY, Illustration, need, need_slides, new_figure
 from campaign.report.figures.svg import on_hover
 from campaign.results.results import Results
-from campaign.statistics.wording import metres, so_far
+from campaign.statistics.wording import at_least, metres, so_far
 from campaign.terminal import counted
 
 

@@ -104,6 +104,11 @@ def test_a_slide_at_a_wall_is_told_as_a_lower_bound_with_the_key_that_moves_the_
     assert "geometry.slope" not in printed
 
 
+def test_a_slide_that_still_moves_is_told_as_a_lower_bound(capsys):
+    printed = tried(capsys, "numerics.end_time=4 s")
+    assert "The slope slides and still moves at the end of the run; its front is at least" in printed
+
+
 def test_too_few_realizations_are_told_where_they_are_what_ends_the_campaign(capsys):
     few = ["--set", "campaign.realizations=20"]
     assert "At most 20 realizations cannot converge" in answer(capsys, "ma2023", *few)[1].out

@@ -5,9 +5,11 @@ import re
 import h5py
 import numpy as np
 import pytest
+from records import make_record
 from small_campaign import run, small_scene
 
 from campaign.errors import RefusalError
+from campaign.record import Status
 from campaign.results import replay as replaying
 from campaign.results.replay import comparison, replay
 from campaign.seeds import BASELINE
@@ -112,3 +114,11 @@ def test_a_slide_that_never_began_leaves_no_file(tmp_path):
     with pytest.raises(ZeroDivisionError), ParticleFile(tmp_path / "slide.vtkhdf", {"peak": np.ones(4)}):
         raise ZeroDivisionError
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(("status", "least"), [(Status.slid, ""), (Status.reached_wall, "at least ")])
+def test_the_run_out_of_a_slide_cut_short_is_told_as_a_lower_bound(status, least):
+    record = make_record(3, status)
+    told = f"its final run-out is {least}{record.values['final_runout']:.3f} m."
+    assert comparison(record, None).endswith(told)
+    assert comparison(record, record).endswith(told)
