@@ -1,4 +1,4 @@
-"""A pack as bytes: the records of consecutive realizations as columns of an HDF5 file, behind a seal.
+"""A pack as bytes: the records of consecutive realizations as columns of an HDF5 file, behind a seal and a summary.
 
 The seal covers the whole file. A checksum for each row stands beside it, by which the whole rows of a damaged pack are
 told from the others.
@@ -6,7 +6,8 @@ told from the others.
 
 import hashlib
 import io
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +15,11 @@ import h5py
 import numpy as np
 
 from campaign.errors import DamagedRecordError
-from campaign.record import SUMMARIZED, Record, Status, plain
-from campaign.storage import format_0
+from campaign.record import Record, Status, plain
+from campaign.storage import format_0, pack_summary
 from campaign.storage.columns import Columns, columns_of
-from campaign.storage.record_format import numbers_in, read_units, write_values
+from campaign.storage.pack_summary import PackSummary, summary_of
+from campaign.storage.record_format import read_units, write_values
 from campaign.storage.seal import SIZE, check_bytes, seal_of, sealed
 
 VALUES = "values"
@@ -29,8 +31,9 @@ READ_ERRORS = (OSError, KeyError, ValueError, RuntimeError, TypeError)
 
 def to_bytes(columns: Columns) -> bytes:
     """Return the content of a pack; flags are compressed, a row at a time, so that damage stays in its row."""
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w", userblock_size=SIZE) as file:
+    buffer, front = io.BytesIO(), bytes(SIZE) + pack_summary.to_bytes(summary_of(columns))
+    room = 1 << (len(front) - 1).bit_length()  # HDF5 leaves a power of two to its user
+    with h5py.File(buffer, "w", userblock_size=room) as file:
         file.attrs["scene"] = columns.scene
         file["realization"] = columns.realizations
         file["status"] = columns.statuses
@@ -40,7 +43,7 @@ def to_bytes(columns: Columns) -> bytes:
         for name, column in columns.values.items():
             rows = {"compression": 1, "chunks": (1, *column.shape[1:])} if column.dtype == np.uint8 else {}
             write_values(values, name, column, columns.units, **rows)
-    return sealed(buffer.getvalue())
+    return sealed(front.ljust(room, b"\0") + buffer.getvalue()[room:])
 
 
 def read(path: Path) -> Columns:
@@ -53,26 +56,22 @@ def read(path: Path) -> Columns:
     RefusalError
         When only a newer version of the program can read it.
     """
-    return _read(path, _columns)
+    return _columns(_verified(path), f"The pack {path}")
 
 
-def read_summarized(path: Path) -> Columns:
-    """Read and verify a pack of which only the numbers are taken that decisions rest on; raises like `read`."""
-    return _read(path, _summarized)
+def verify(path: Path) -> PackSummary:
+    """Verify a pack, records and all, and return what is known without them; raises like `read`."""
+    content = _verified(path)
+    summary = pack_summary.read(io.BytesIO(content[SIZE:]))
+    return summary or summary_of(_columns(content, f"The pack {path}"))
 
 
-def _read(path: Path, take: Callable[[h5py.File], Columns]) -> Columns:
-    content, place = _content(path), f"The pack {path}"
-    seal = seal_of(content, place)
-    if seal is not None:
-        check_bytes(content, seal, place)
-    try:
-        with h5py.File(io.BytesIO(content), "r") as file:
-            if seal is None:
-                return columns_of([format_0.read_group(file[name], place) for name in file])
-            return take(file)
-    except READ_ERRORS as error:
-        raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
+def read_summary(path: Path) -> PackSummary:
+    """Read what is known of a pack without its records, at which it does not look if it can; raises like `read`."""
+    with _opening(path), path.open("rb") as file:
+        seal_of(file.read(SIZE), f"The pack {path}")
+        summary = pack_summary.read(file)
+    return summary or summary_of(read(path))
 
 
 def whole_records(path: Path) -> list[Record]:
@@ -92,24 +91,36 @@ def is_current(path: Path) -> bool:
         return seal_of(file.read(SIZE), f"The pack {path}") is not None
 
 
-def _content(path: Path) -> bytes:
+@contextmanager
+def _opening(path: Path) -> Iterator[None]:
     try:
-        return path.read_bytes()
+        yield
     except OSError as error:
         raise DamagedRecordError(f"The pack {path} cannot be opened ({error}).") from error
 
 
-def _columns(file: h5py.File) -> Columns:
-    datasets = dict(file[VALUES].items())
-    values = {name: column[()] for name, column in datasets.items()}
-    reasons, units = file["reason"].asstr()[()], read_units(datasets)
-    return Columns(file["realization"][()], file["status"][()], reasons, values, units, _scene(file))
+def _verified(path: Path) -> bytes:
+    """Return the content of a pack whose bytes are as they were written, as far as its format tells."""
+    with _opening(path):
+        content = path.read_bytes()
+    place = f"The pack {path}"
+    seal = seal_of(content, place)
+    if seal is not None:
+        check_bytes(content, seal, place)
+    return content
 
 
-def _summarized(file: h5py.File) -> Columns:
-    values = {name: numbers_in(file, f"{VALUES}/{name}") for name in SUMMARIZED}
-    realizations, statuses = numbers_in(file, "realization"), numbers_in(file, "status")
-    return Columns(realizations, statuses, np.full(len(realizations), "", object), values, {}, _scene(file))
+def _columns(content: bytes, place: str) -> Columns:
+    try:
+        with h5py.File(io.BytesIO(content), "r") as file:
+            if VALUES not in file:
+                return columns_of([format_0.read_group(file[name], place) for name in file])
+            datasets = dict(file[VALUES].items())
+            values = {name: column[()] for name, column in datasets.items()}
+            reasons, units = file["reason"].asstr()[()], read_units(datasets)
+            return Columns(file["realization"][()], file["status"][()], reasons, values, units, _scene(file))
+    except READ_ERRORS as error:
+        raise DamagedRecordError(f"{place} cannot be read ({error}).") from error
 
 
 def _row(file: h5py.File, row: int) -> Record:

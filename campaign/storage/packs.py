@@ -10,6 +10,7 @@ from campaign.record import RealizationSummary, Record, summarize
 from campaign.storage import pack_format
 from campaign.storage.columns import Columns
 from campaign.storage.layout import PACKS, pack_file, pack_of
+from campaign.storage.pack_summary import PackSummary, summary_of
 from campaign.storage.salvage import salvaged
 from campaign.storage.soundness import (
     Shape,
@@ -19,7 +20,6 @@ from campaign.storage.soundness import (
     may_belong,
     misfit,
     not_fitting,
-    shape_of,
 )
 
 
@@ -39,8 +39,7 @@ class Packs:
     def __init__(self, directory: Path, scene: str = "") -> None:
         self.directory = directory / PACKS
         self._scene = scene
-        self._summaries: dict[int, list[RealizationSummary]] = {}
-        self._shapes: dict[int, dict[str, Shape]] = {}
+        self._known: dict[int, PackSummary] = {}
 
     def path(self, number: int) -> Path:
         """Return the file of a pack, whether or not it is there."""
@@ -61,24 +60,29 @@ class Packs:
         RefusalError
             When only a newer version of the program can read it.
         """
-        return self._own(number, pack_format.read(self.path(number)))
+        columns = pack_format.read(self.path(number))
+        self._check_own(number, summary_of(columns))
+        return columns
 
     def summaries(self, number: int) -> list[RealizationSummary]:
-        """Return the part of each record that decisions rest on; the file is read once. Raises like `read`."""
-        if number not in self._summaries:
-            read = pack_format.read_summarized(self.path(number))
-            self._keep(number, self._own(number, read))
-        return self._summaries[number]
+        """Return the part of each record that decisions rest on; raises like `read`.
+
+        Records that follow are not looked at, unless the pack is an older one. The file is read once.
+        """
+        if number not in self._known:
+            self._keep(number, pack_format.read_summary(self.path(number)))
+        return self._known[number].realizations
 
     def check_shapes(self, number: int, wanted: Mapping[str, Shape]) -> str:
         """Set a pack aside whose quantities have not the shapes `wanted`; returns a sentence when it was, else ""."""
-        name = misfit(self._shapes.get(number, {}), wanted)
+        name = misfit(self._known[number].shapes, wanted) if number in self._known else ""
         return not_fitting(self.path(number), name, "its realizations are") if name else ""
 
     def write(self, number: int, columns: Columns) -> None:
         """Keep a pack for good; raises OSError, leaving the old one, when the disk is full or not writable."""
-        write_atomically(self.path(number), pack_format.to_bytes(replace(columns, scene=self._scene)))
-        self._keep(number, columns)
+        ours = replace(columns, scene=self._scene)
+        write_atomically(self.path(number), pack_format.to_bytes(ours))
+        self._known[number] = summary_of(ours)
 
     def check(self, number: int) -> tuple[list[Record], str]:
         """Verify a pack, and bring one of an older format up to date.
@@ -91,29 +95,26 @@ class Packs:
         """
         path = self.path(number)
         try:
-            columns = self.read(number)
+            self._keep(number, pack_format.verify(path))
         except DamagedRecordError as error:
             whole = [record for record in salvaged(path) if self._is_ours(record)]
             lost, aside = self.SIZE - len(whole), set_aside(path)
             return whole, f"{error} It is set aside as {aside.name}, and {lost} of its realizations are run again."
-        if pack_format.is_current(path):
-            self._keep(number, columns)
-        else:
-            self.write(number, columns)
+        if not pack_format.is_current(path):
+            self.write(number, self.read(number))
         return [], ""
 
-    def _keep(self, number: int, columns: Columns) -> None:
-        self._summaries[number] = columns.summaries
-        self._shapes[number] = {name: shape_of(column[0]) for name, column in columns.values.items() if len(column)}
+    def _keep(self, number: int, known: PackSummary) -> None:
+        self._check_own(number, known)
+        self._known[number] = known
 
-    def _own(self, number: int, columns: Columns) -> Columns:
-        """Return a pack if it can be this campaign's; raises DamagedRecordError if not."""
+    def _check_own(self, number: int, known: PackSummary) -> None:
+        """Make sure that a pack can be this campaign's; raises DamagedRecordError if not."""
         place = f"The pack {self.path(number)}"
-        check_owner(columns.scene, self._scene, place)
-        check_sound(columns.summaries, place)
-        if (columns.realizations // self.SIZE != number).any():
+        check_owner(known.scene, self._scene, place)
+        check_sound(known.realizations, place)
+        if any(each.realization // self.SIZE != number for each in known.realizations):
             raise DamagedRecordError(f"{place} holds other realizations than its name says.")
-        return columns
 
     def _is_ours(self, record: Record) -> bool:
         return may_belong(record.scene, self._scene) and is_sound(summarize(record))

@@ -10,11 +10,12 @@ import pytest
 from records import SIZES, assert_same, make_record
 
 from campaign.errors import DamagedRecordError
-from campaign.record import Status, missing_values
+from campaign.record import Status, missing_values, summarize
 from campaign.scene import load_scene
 from campaign.seeds import BASELINE
 from campaign.simulation.quantities import QUANTITIES, UNITS
 from campaign.statistics.discretisation import with_half_cell
+from campaign.storage import pack_summary
 from campaign.storage.columns import columns_of
 from campaign.storage.packs import Packs
 from campaign.storage.record_store import RecordStore
@@ -143,6 +144,27 @@ def test_the_whole_records_of_a_damaged_pack_are_saved(packed):
     assert "1 of its realizations" in sentence
     assert packed.finished() == {BASELINE, *range(10)} - {2}
     assert_same(packed.read(3), make_record(3))
+
+
+def test_damage_to_the_summary_of_a_pack_is_noticed_and_costs_no_record(packed):
+    path = pack_path(packed, 0)
+    path.write_bytes(path.read_bytes().replace(b'{"rows": 4', b'{"rows": 3'))
+    assert "does not match its checksum" in RecordStore(packed.records.parent).summaries()[1][0]
+    (sentence,) = packed.recover()
+    assert "0 of its realizations" in sentence
+    assert packed.finished() == {BASELINE, *range(10)}
+
+
+def test_a_summary_says_what_the_records_say_and_a_pack_without_one_is_read_whole(packed, monkeypatch):
+    """As older packs are."""
+    known = packed.packs.summaries(0)
+    monkeypatch.setattr(pack_summary, "to_bytes", lambda _known: b"")
+    packed.packs.write(0, packed.packs.read(0))
+    assert pack_path(packed, 0).read_bytes()[512:516] == b"\x89HDF"
+    older = RecordStore(packed.records.parent)
+    assert older.packs.summaries(0) == known == [summarize(make_record(realization)) for realization in range(4)]
+    assert older.recover() == []
+    assert older.check_shapes({"runout": (3,)})[0].startswith(str(pack_path(packed, 0)))
 
 
 def test_damage_to_a_compressed_row_stays_in_the_row(packed):

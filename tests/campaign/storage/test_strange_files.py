@@ -163,7 +163,7 @@ def test_mutated_packs_give_whole_records_or_none(tmp_path, monkeypatch):
     path, whole = tmp_path / "p00000.h5", 0
     for _ in range(100):
         path.write_bytes(mutated(content, rng))
-        for read in (pack_format.read, pack_format.read_summarized):
+        for read in (pack_format.read, pack_format.read_summary, pack_format.verify):
             with contextlib.suppress(DamagedRecordError):
                 read(path)
         if rng.random() < 0.1:
