@@ -1,7 +1,8 @@
 """A realization that never comes back is noticed: its time limit is kept by its own time loop, which may hang.
 
-Rank 0 watches, and says who hangs. Each rank has a timer besides, which needs no Python to end its process: rank 0 may
-hang itself and keep its own threads from running, or a rank may hang before its first realization.
+Rank 0 watches, and says who hangs. Each rank has a timer besides, which needs no Python to end its process so that the
+campaign can go on: rank 0 may hang itself and keep its own threads from running, or a rank may hang before its first
+realization.
 """
 
 import faulthandler
@@ -11,9 +12,13 @@ from contextlib import contextmanager, suppress
 from typing import TextIO
 
 from campaign.exit_codes import ExitCode
+from campaign.running.last_resort import ending
 
 GRACE = 300.0
 """Seconds beyond its time limit that a realization is given to notice it, and to write its record."""
+
+LAST_WORDS = 1.0
+"""Seconds between the trace of a rank that hangs and its end."""
 
 
 def patience(timeout: float) -> float:
@@ -32,11 +37,13 @@ def timer(timeout: float, trace: TextIO | int) -> Iterator[None]:
     trace
         A file of the system, or its number.
     """
-    faulthandler.dump_traceback_later(2 * patience(timeout), exit=True, file=trace)
-    try:
-        yield
-    finally:
-        faulthandler.cancel_dump_traceback_later()
+    limit = 2 * patience(timeout)
+    with ending(ExitCode.RESUMABLE, limit + LAST_WORDS) as is_set:
+        faulthandler.dump_traceback_later(limit, exit=not is_set, file=trace)
+        try:
+            yield
+        finally:
+            faulthandler.cancel_dump_traceback_later()
 
 
 class HungError(BaseException):

@@ -1,12 +1,14 @@
 """A ground in the place of the solver's: instant, deterministic in (seed, realization, cell), and faulty on demand.
 
-Run under mpirun as a campaign: `python stand_in.py DIR REALIZATIONS`, with STAND_IN_* variables for faults.
+Run under mpirun as a campaign: `python stand_in.py DIR REALIZATIONS`, with STAND_IN_* variables for faults, and one for
+a file that holds the table of quantities, for whose sake each rank would load the solver.
 """
 
 import ctypes
 import errno
 import math
 import os
+import pickle
 import resource
 import signal
 import sys
@@ -18,15 +20,20 @@ from pathlib import Path
 
 import numpy as np
 
-from campaign.record import Quantity, Record, Status, with_dims
+from campaign.record import Quantity, Record, Status, units_of, with_dims
 from campaign.scene import Scene, load_scene
 from campaign.seeds import BASELINE, Stream, generator
 from campaign.simulation.contract import Interrupted
-from campaign.simulation.quantities import QUANTITIES, UNITS
+
+if kept := os.environ.get("STAND_IN_QUANTITIES"):
+    QUANTITIES: dict[str, Quantity] = pickle.loads(Path(kept).read_bytes())
+else:
+    from campaign.simulation.quantities import QUANTITIES
 
 SIZES = {"time": 11, "x": 7, "particle": 13}
 RATE = 0.189
 MEASURED = with_dims(QUANTITIES, SIZES)
+UNITS = units_of(QUANTITIES)
 
 
 @dataclass
@@ -34,6 +41,7 @@ class StandIn:
     """In the place of `campaign.simulation.ground.Ground`."""
 
     scene: Scene
+    is_beside: bool = False  # the campaign's own realizations
     n_particles: int = SIZES["particle"]
     toe_x: float = 35.0
     coordinates: dict[str, np.ndarray] = field(
@@ -51,7 +59,8 @@ class StandIn:
         return MEASURED
 
     def simulate(self, realization: int, interrupt: Callable[[], bool]) -> Record:
-        begin, length = time.monotonic(), float(os.environ.get("STAND_IN_SECONDS", "0"))
+        lengths = {False: "STAND_IN_SECONDS", True: "STAND_IN_SECONDS_BESIDE"}
+        begin, length = time.monotonic(), float(os.environ.get(lengths[self.is_beside], "0"))
         while time.monotonic() - begin < length:
             if interrupt():
                 raise Interrupted
@@ -68,7 +77,12 @@ def prepare(scene: Scene, directory: Path) -> StandIn:
     if seconds := os.environ.get("STAND_IN_PREPARE_SECONDS"):
         (directory / ".preparing").touch()
         time.sleep(float(seconds))
-    return StandIn(scene)
+    prepared.append(scene)
+    return StandIn(scene, len(prepared) > 1)
+
+
+prepared: list[Scene] = []
+"""The first one is the campaign's own."""
 
 
 def misbehave(realization: int) -> None:

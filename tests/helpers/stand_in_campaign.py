@@ -1,16 +1,22 @@
 """Campaigns of the stand-in (`stand_in.py`) under the environment's own mpirun."""
 
 import os
+import pickle
 import signal
 import subprocess
 import sys
+import tempfile
 import time
+from dataclasses import fields
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
 
+from campaign.record import Quantity
+from campaign.simulation.quantities import QUANTITIES
 from campaign.storage.lock import DirectoryLock
 
 MPIRUN = Path(sys.prefix) / "bin" / "mpirun"
@@ -18,17 +24,39 @@ NEEDS_MPIRUN = pytest.mark.skipif(not MPIRUN.exists(), reason="needs the mpich e
 STAND_IN = Path(__file__).parent / "stand_in.py"
 
 
+@cache
+def is_open_mpi():
+    version = subprocess.run([MPIRUN, "--version"], capture_output=True, text=True, check=True).stdout
+    return "Open MPI" in version
+
+
 def lets_ranks_end(number):
     """Whether mpirun hands a signal on and waits for its ranks.
 
-    Open MPI's ends them within a second of TERM and INT, whatever they do, and its own exit code is 1.
+    Open MPI's ends them within two seconds of TERM and INT, whatever they do, and its own exit code is 1.
     """
-    version = subprocess.run([MPIRUN, "--version"], capture_output=True, text=True, check=True).stdout
-    return number == signal.SIGUSR1 or "Open MPI" not in version
+    return number == signal.SIGUSR1 or not is_open_mpi()
+
+
+def code_after(number):
+    """The exit code of mpirun when ranks were asked to stop by this signal."""
+    return 75 if lets_ranks_end(number) else 1
+
+
+@cache
+def quantities_file():
+    """A file with the table of quantities, without the functions that compute them."""
+    table = {
+        name: Quantity(*(getattr(row, field.name) for field in fields(Quantity))) for name, row in QUANTITIES.items()
+    }
+    path = Path(tempfile.mkdtemp()) / "quantities"
+    path.write_bytes(pickle.dumps(table))
+    return path
 
 
 def start(directory, realizations=40, ranks=2, overrides=(), **faults):
-    environment = os.environ | {f"STAND_IN_{name.upper()}": str(value) for name, value in faults.items()}
+    settings = {"quantities": quantities_file()} | faults
+    environment = os.environ | {f"STAND_IN_{name.upper()}": str(value) for name, value in settings.items()}
     command = [MPIRUN, "-n", str(ranks), sys.executable, STAND_IN, directory, str(realizations), *overrides]
     return subprocess.Popen(
         command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True
@@ -41,9 +69,9 @@ def campaign(directory, realizations=40, ranks=2, overrides=(), **faults):
     return process.returncode, output
 
 
-def dataset_of(directory, *arguments, **keywords):
-    """Return the dataset of a campaign that must come to its end; arguments are those of ``campaign``."""
-    code, output = campaign(directory, *arguments, **keywords)
+def dataset_of(directory, realizations=40, ranks=1, overrides=(), **faults):
+    """Return the dataset of a campaign that must come to its end."""
+    code, output = campaign(directory, realizations, ranks, overrides, **faults)
     assert code == 0, output
     return dataset(directory)
 

@@ -17,6 +17,7 @@ from stand_in_campaign import (
     NEEDS_MPIRUN,
     assert_same,
     campaign,
+    code_after,
     dataset,
     dataset_of,
     lets_ranks_end,
@@ -67,8 +68,7 @@ def test_a_ground_that_cannot_be_prepared_for_want_of_memory_can_be_later(tmp_pa
 def test_what_crashed_is_run_again_when_asked_for(alone, tmp_path):
     directory = tmp_path / "out"
     assert campaign(directory, **{"raise": 7})[0] == 0
-    assert campaign(directory)[0] == 0
-    assert np.isnan(dataset(directory).final_runout[7])
+    assert np.isnan(dataset_of(directory).final_runout[7])
     assert_same(dataset_of(directory, retry="crashed timeout"), alone)
 
 
@@ -76,11 +76,11 @@ def test_a_raised_timeout_runs_again_what_took_too_long(tmp_path):
     directory = tmp_path / "out"
     code, output = campaign(directory, 4, overrides=["campaign.realization_timeout=0.05 s"], seconds=0.3)
     assert code == 3, output
-    assert campaign(directory, 4, overrides=["campaign.realization_timeout=0.04 s"])[0] == 3
+    assert campaign(directory, 4, 1, ["campaign.realization_timeout=0.04 s"])[0] == 3
     assert_same(dataset_of(directory, 4), dataset_of(tmp_path / "alone", 4, 1))
 
 
-@pytest.mark.parametrize("ranks", [pytest.param(1, marks=pytest.mark.slow), 3])
+@pytest.mark.parametrize("ranks", [pytest.param(1, marks=pytest.mark.slow), 2])
 def test_a_realization_that_hangs_is_ended_and_skipped_after_the_second_time(tmp_path, ranks):
     """Also where rank 0 itself hangs, and is ended by its own thread."""
     directory, short = tmp_path / "out", ["campaign.realization_timeout=0.5 s"]
@@ -89,7 +89,7 @@ def test_a_realization_that_hangs_is_ended_and_skipped_after_the_second_time(tmp
         assert code == 75, output
         assert re.search(r"Rank \d does not come back from realization 3, begun \d+ s ago", output), output
         assert "Traceback" not in output
-    code, output = campaign(directory, 12, ranks, short, hang=3, grace=4)
+    code, output = campaign(directory, 12, 1, short, hang=3, grace=4)
     assert code == 0, output
     assert "Realization 3 is recorded as crashed" in output
     assert "no answer within 5 s" in str(dataset(directory).reason[3].values)
@@ -100,7 +100,7 @@ def test_a_realization_that_hangs_and_stops_all_threads_of_its_rank_is_ended_too
     directory, short = tmp_path / "out", ["campaign.realization_timeout=0.5 s"]
     for _ in range(2):
         code, output = campaign(directory, 12, 1, short, hang_alone=3, grace=3)
-        assert code not in (0, 3), output
+        assert code == 75, output
         assert conclusion(directory) is ExitCode.RESUMABLE
     code, output = campaign(directory, 12, 1, short, hang_alone=3, grace=3)
     assert code == 0, output
@@ -111,7 +111,7 @@ def test_a_rank_that_hangs_before_its_first_realization_is_ended(alone, tmp_path
     """That is tried out with the baseline."""
     short = ["campaign.realization_timeout=0.5 s"]
     code, output = campaign(tmp_path / "out", overrides=short, hang_alone=-1, grace=3)
-    assert code not in (0, 3), output
+    assert code == 75, output
     assert re.search(r"Timeout.*in misbehave", output, re.DOTALL), output
     assert_same(dataset_of(tmp_path / "out", overrides=["campaign.realization_timeout=1 h"]), alone)
 
@@ -125,8 +125,8 @@ def test_a_signal_ends_the_preparation_at_once(tmp_path, number):
     os.kill(process.pid, number)
     output, _ = process.communicate(timeout=40)
     assert time.monotonic() - begin < 20
+    assert process.returncode == code_after(number), output
     if lets_ranks_end(number):
-        assert process.returncode == 75, output
         assert "before its first realization" in output
         assert "stopped early (asked to stop)" in status(directory)
     assert conclusion(directory) is ExitCode.RESUMABLE
@@ -137,7 +137,7 @@ def test_a_rank_that_vanishes_is_not_a_success_whatever_the_launcher_says(tmp_pa
     directory = tmp_path / "out"
     campaign(directory, ranks=2, seconds=0.02, vanish=9)
     assert conclusion(directory) is ExitCode.RESUMABLE
-    assert campaign(directory)[0] == conclusion(directory) == ExitCode.DONE
+    assert campaign(directory, ranks=1)[0] == conclusion(directory) == ExitCode.DONE
 
 
 def test_a_directory_that_is_moved_away_can_go_on_where_it_is(alone, tmp_path):
