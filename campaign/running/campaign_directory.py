@@ -136,7 +136,10 @@ class CampaignDirectory:
         try:
             if tally.prefix > 0:
                 say(self._write_results(ground, own, verdict, beyond))
-            self.level.store.pack()
+            if (
+                code is not ExitCode.RESUMABLE
+            ):  # whoever was asked to stop has no time for it, and the next start does it
+                self.level.store.pack()
             manifest.end(self.path, code, verdict)
         except OSError as error:
             say(f"The results cannot be written ({error}). All records are kept: make room and repeat the command.")

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from campaign.running.level import Level
 from campaign.running.machine_fault import machine_faults
 from campaign.running.progress import Progress, nothing_ahead
 from campaign.running.side_run import Means
-from campaign.running.stop_request import StopRequest
+from campaign.running.stop_request import BrokenOff, StopRequest
 from campaign.running.walltime import job_end
 from campaign.running.workload import seconds_beyond_sampling
 from campaign.scene import Scene
@@ -54,12 +55,23 @@ def means_of(directory: CampaignDirectory, prepare: Prepare, crew: Crew, stop: S
         rehearses = tally.size is None and not is_rehearsed
         is_rehearsed = is_rehearsed or rehearses
         order = Order(ground, level.directory, wanted.digest(), timeout, end, breaks_off, rehearses)
-        dispatcher = Dispatcher(tally, obstacle, level.tidier(tally))
+        dispatcher = Dispatcher(tally, obstacle, _unless_stopped(stop, level.tidier(tally)))
         progress = Progress(tally, partial(seconds_beyond_sampling, wanted, crew.size) if is_main else nothing_ahead)
         crew.compute(order, dispatcher, lambda: dispatcher.observe(progress.tick))
         return dispatcher.stopped
 
     return Means(directory.path, prepare_unless_stopped, hand_out, "", directory.level.retry)
+
+
+def _unless_stopped(stop: StopRequest, tidy: Callable[[], None]) -> Callable[[], None]:
+    """Return what tidies up until somebody asks for an end; the next start does the rest."""
+
+    def tidy_unless_stopped() -> None:
+        with suppress(BrokenOff), stop.breaking_off():
+            stop.obey()
+            tidy()
+
+    return tidy_unless_stopped
 
 
 def _obstacle(stop: StopRequest, end: float, lost: Callable[[], str]) -> Callable[[float], str]:
