@@ -168,7 +168,7 @@ sys.meta_path.insert(0, Broken())
     [
         ("numpy", "ImportError('a file is missing')"),
         ("campaign.running.runner", "SystemExit(0)"),
-        ("campaign.simulation.ground", "KeyboardInterrupt"),
+        ("campaign.running.mpi", "KeyboardInterrupt"),
     ],
 )
 def test_an_import_that_fails_on_one_rank_ends_all(tmp_path, module, error):
