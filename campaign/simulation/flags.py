@@ -1,16 +1,13 @@
 """Sentences about a slide that ran to its end and yet is not the slope's own."""
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
 
 from campaign.record import Value
 from campaign.scene import Scene, more_ground
 from campaign.simulation.detachment import CAME_APART
 from campaign.terminal import as_sentence
-
-if TYPE_CHECKING:  # reports need the sentences, and not the solver, which takes a second to load
-    from solver.model import Model
-    from solver.walls import Walls
+from solver.model import Model
+from solver.walls import Walls
 
 CREST_WALL = "The slide has reached the wall behind the crest (x = 0 m), which hinders it."
 AHEAD_WALL = "The slide has reached the wall ahead of it (x = {width:g} m), which hinders it."
@@ -29,7 +26,7 @@ MUCH_CONTACT = 0.1
 """Share of the sliding ground that slips along the base, from which on the base and not the soil shapes the slide."""
 
 
-def flags(model: "Model", walls: "Walls", values: Mapping[str, Value]) -> str:
+def flags(model: Model, walls: Walls, values: Mapping[str, Value]) -> str:
     """Return what has to be said of a march that did not fail; "" if nothing.
 
     Ground that stands on the base itself, like a heap on a floor, has no foundation that could be too thin.
