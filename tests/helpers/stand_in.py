@@ -59,8 +59,8 @@ class StandIn:
         return MEASURED
 
     def simulate(self, realization: int, interrupt: Callable[[], bool]) -> Record:
-        lengths = {False: "STAND_IN_SECONDS", True: "STAND_IN_SECONDS_BESIDE"}
-        begin, length = time.monotonic(), float(os.environ.get(lengths[self.is_beside], "0"))
+        begin, own = time.monotonic(), os.environ.get("STAND_IN_SECONDS", "0")
+        length = float(os.environ.get("STAND_IN_SECONDS_BESIDE", own) if self.is_beside else own)
         while time.monotonic() - begin < length:
             if interrupt():
                 raise Interrupted
@@ -126,7 +126,6 @@ if __name__ == "__main__":
     from campaign.running import watch
     from campaign.running.campaign_directory import Earlier
     from campaign.running.mpi import on_ranks, run_on_ranks
-    from campaign.tradeoff.compare import lead
 
     watch.GRACE = float(os.environ.get("STAND_IN_GRACE", "300"))
     retry = frozenset(Status[name] for name in os.environ.get("STAND_IN_RETRY", "").split())
@@ -135,5 +134,7 @@ if __name__ == "__main__":
     wanted = [f"campaign.realizations={count}", *alone, *overrides]
     scene = partial(load_scene, "ma2023", wanted)
     if "STAND_IN_TRADEOFF" in os.environ:
+        from campaign.tradeoff.compare import lead  # which loads the solver
+
         sys.exit(on_ranks(scene, lambda _: Path(directory), lead(math.inf, prepare)))
     sys.exit(run_on_ranks(scene, Path(directory), prepare, None, Earlier(False, retry)))
