@@ -64,18 +64,27 @@ class Pursuit(NamedTuple):
     ----------
     models : tuple of Model
         The last ladder.
-    counts, cut_short : tuples of int
-        Realizations that each has run, and slides among them whose run-out is a lower bound.
+    runs : tuple of Runs
+        What each has run.
     limit : MeshLimit or None
         The answer; None where nothing slides.
     is_reached : bool
     """
 
     models: tuple[Model, ...]
-    counts: tuple[int, ...]
-    cut_short: tuple[int, ...]
+    runs: tuple[Runs, ...]
     limit: MeshLimit | None
     is_reached: bool
+
+    @property
+    def counts(self) -> tuple[int, ...]:
+        """Realizations that each model has run."""
+        return tuple(len(each.runout) for each in self.runs)
+
+    @property
+    def cut_short(self) -> tuple[int, ...]:
+        """Slides among them whose run-out is a lower bound."""
+        return tuple(each.cut_short for each in self.runs)
 
 
 Ladder = tuple[Model, ...]
@@ -111,8 +120,7 @@ def pursue(ladders: Sequence[Ladder], wanted: Wanted, compute: Compute) -> Pursu
         if found is None or found.is_reached or not found.is_ruled_by_mesh:
             break
     is_reached = found is not None and found.is_reached
-    cut_short = tuple(runs[model].cut_short for model in ladder)
-    return Pursuit(ladder, tuple(counts[model] for model in ladder), cut_short, found and found.limit, is_reached)
+    return Pursuit(ladder, tuple(runs[model] for model in ladder), found and found.limit, is_reached)
 
 
 class _Look(NamedTuple):

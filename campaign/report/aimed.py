@@ -4,7 +4,7 @@ from campaign.accuracy.wording import error_of
 from campaign.results.accuracy import Reached, reached_of
 from campaign.results.results import Results
 from campaign.scene.units import PRESSURE, shown_in_unit
-from campaign.statistics.wording import metres
+from campaign.statistics.wording import chances, estimated_chance, metres
 from campaign.terminal import counted, listing
 
 
@@ -32,11 +32,28 @@ def from_all_models(results: Results) -> str:
                 f"halving of the cell changed it by {change.estimate:+.2f} ± {change.half_width:.2f} m, and the "
                 "interval holds as much again in either direction.",
                 _cut_short(reached),
+                _distribution(reached),
                 f"It rests on {models_in_words(reached)}.",
                 f"All that follows is counted with cells of {results.scene.numerics.cell:g} m alone.",
             ],
         )
     )
+
+
+def _distribution(reached: Reached) -> str:
+    """Say how far single slides run on the finest mesh, and how probably they reach the places asked about."""
+    if not reached.quantiles:
+        return ""
+    within = [
+        f"{100 * share:g} % of the slides stop within {each.total.estimate:.2f} m ({metres(each.total)})"
+        for share, each in reached.quantiles.items()
+    ]
+    there = [
+        f"{estimated_chance(each.total)} ({chances(each.total)}) come as far as {name}"
+        for name, each in reached.reaches.items()
+    ]
+    beyond = f"; of all slopes {listing(there)}" if there else ""
+    return f"Foretold for that mesh from all models, for sampling and mesh, {listing(within)}{beyond}."
 
 
 def at_least(reached: Reached) -> str:

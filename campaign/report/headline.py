@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from campaign.accuracy.foretold import Estimate
 from campaign.report import estimates
 from campaign.report.aimed import at_least
 from campaign.report.cut_short import causes, in_one_clause
@@ -55,7 +56,20 @@ def _aimed(results: Results) -> list[Tile]:
 
 def reaches(results: Results) -> list[Tile]:
     """Return for each receptor how probable it is that a slide gets there."""
-    return [_reach(each) for each in reach_estimates(results)]
+    reached = reached_of(results.data)
+    from_all_models = {} if reached is None else reached.reaches
+    tiles = [_reach(each) for each in reach_estimates(results)]
+    return [_on_finest_mesh(tile, results, from_all_models.get(tile.name)) for tile in tiles]
+
+
+def _on_finest_mesh(tile: Tile, results: Results, foretold: Estimate | None) -> Tile:
+    """Return what all models together tell of a receptor, where they do, with what the scene's own cells count."""
+    if foretold is None:
+        return tile
+    counted_here = f"counted with cells of {results.scene.numerics.cell:g} m alone: {tile.value}, {tile.interval}"
+    remark = "; ".join(filter(None, [counted_here, tile.remark]))
+    total = foretold.total
+    return Tile(tile.name, estimated_chance(total), chances(total), remark)
 
 
 def what_intervals_hold(results: Results) -> str:

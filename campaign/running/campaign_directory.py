@@ -169,7 +169,9 @@ class CampaignDirectory:
         columns, baseline = self.level.store.columns(tally.prefix), self.level.store.read(BASELINE)
         known = (beyond.discretisation, beyond.release)
         built = dataset.build(ground, columns, baseline, tally.history(), about, *known)
-        built = built.assign({} if own.aim is None else of_pursuit(own.aim.pursuit, own.aim.models))
+        if own.aim is not None:
+            receptors = [receptor.x[0] - ground.toe_x for receptor in self.scene.receptor]
+            built = built.assign(of_pursuit(own.aim.pursuit, own.aim.models, receptors))
         result = Results(with_sensitivity(Results(built, self.scene), beyond.inputs), self.scene)
         dataset.write(result.data, self.path / RESULTS)
         return summary(result)
