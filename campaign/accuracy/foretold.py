@@ -103,7 +103,7 @@ class Foretold:
             slides = outcomes[0][np.isfinite(outcomes[0])]
             return quantile_interval(slides, share, self._confidence)
 
-        return self._estimate(lambda outcomes: np.nanquantile(outcomes, share, axis=1), plain)
+        return self._estimate(lambda outcomes: _quantiles(outcomes, share), plain)
 
     def _estimate(self, statistic: Callable[[Outcomes], Sample], plain: Callable[[Outcomes], Interval]) -> Estimate:
         intervals = {j: self._interval(j, statistic, plain) for j in self._known}
@@ -114,9 +114,9 @@ class Foretold:
     def _interval(
         self, j: float, statistic: Callable[[Outcomes], Sample], plain: Callable[[Outcomes], Interval]
     ) -> Interval:
-        estimate = float(np.mean(statistic(self._known[j])))
+        estimate = float(np.nanmean(statistic(self._known[j])))
         tail = 50 * (1 - self._confidence)
-        lower, upper = np.percentile(statistic(self._redrawn[j]), [tail, 100 - tail])
+        lower, upper = np.nanpercentile(statistic(self._redrawn[j]), [tail, 100 - tail])
         least = plain(self._known[j])
         # The middle of so many plain runs is that of a whole number of them; their interval is laid about the estimate.
         below, above = estimate - (least.estimate - least.lower), estimate + (least.upper - least.estimate)
@@ -140,6 +140,14 @@ def foretold(runs: Sequence[Runs], confidence: float, seed: int) -> Foretold | N
     if cut_short > FEW or not all(count >= FEWEST for count in pairs):
         return None
     return Foretold(models, confidence, generator(seed, Stream.BOOTSTRAP, 0), cut_short)
+
+
+def _quantiles(outcomes: Outcomes, share: float) -> Sample:
+    """Return a quantile of the slides of each draw, NaN of one without a slide."""
+    has_slides = np.isfinite(outcomes).any(axis=1)
+    found = np.full(len(outcomes), np.nan)
+    found[has_slides] = np.nanquantile(outcomes[has_slides], share, axis=1)
+    return found
 
 
 def _share_cut_short(runs: Runs) -> float:
@@ -192,7 +200,7 @@ def _foretell(own: Outcomes, cheaper: Outcomes, donors: Sample) -> Outcomes:
     slope, offset = _line(there[both], own[both])
     count = int(np.count_nonzero(both))
     left = (own - (offset + slope * there)) * math.sqrt(count / max(1, count - 2))
-    found = np.full(len(asked), np.nan)
+    found = asked.copy()  # as in the cheaper model where none of those that both have run resembles it
     for slides in (True, False):
         alike, targets = np.flatnonzero(np.isfinite(there) == slides), np.isfinite(asked) == slides
         if alike.size:
