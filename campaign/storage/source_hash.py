@@ -7,6 +7,7 @@ without docstrings: a changed formula is a new program, a changed sentence about
 import ast
 import hashlib
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 
 ROOT = "campaign.simulation.ground"
@@ -37,7 +38,7 @@ def program_hash(modules: Mapping[str, Path]) -> str:
     """Return the SHA-256 of the program in these files, by the name of their module."""
     digest = hashlib.sha256()
     for name in sorted(modules):
-        digest.update(f"# {name}\n{_program(modules[name])}\n".encode())
+        digest.update(f"# {name}\n{_program(modules[name].read_bytes())}\n".encode())
     return digest.hexdigest()
 
 
@@ -57,13 +58,14 @@ def _reached(root: str, modules: Mapping[str, Path]) -> set[str]:
     while ahead:
         name = ahead.pop()
         reached.add(name)
-        ahead |= _imports(modules[name]) & modules.keys() - reached
+        ahead |= _imports(modules[name].read_bytes()) & modules.keys() - reached
     return reached
 
 
-def _imports(path: Path) -> set[str]:
+@cache  # several hashes cover the same file, and each start of a campaign asks for all of them
+def _imports(source: bytes) -> set[str]:
     found: set[str] = set()
-    for node in ast.walk(ast.parse(path.read_bytes())):
+    for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
@@ -71,8 +73,9 @@ def _imports(path: Path) -> set[str]:
     return found
 
 
-def _program(path: Path) -> str:
-    tree = ast.parse(path.read_bytes())
+@cache
+def _program(source: bytes) -> str:
+    tree = ast.parse(source)
     for node in ast.walk(tree):
         body: list[ast.stmt] = getattr(node, "body", [])
         if isinstance(body, list):
