@@ -20,7 +20,7 @@ from shear_band import (
     soil_on_cells,
 )
 
-from solver._jit import inlined, kernel
+from solver._jit import kernel, sweep
 from solver.deformation import deform
 from solver.elastic import shear_modulus
 from solver.grid import PADDING, SMALLEST_MASS
@@ -35,22 +35,43 @@ RESIDUAL = 10e3  # Pa
 SLIP, SAMPLES = 1.0, 66  # m, of the top at the end; looks on the way
 
 
-@inlined
+# Loops instead of expressions of arrays, which take Numba a minute to compile here.
+
+
+@sweep
 def share_in_rows(sums, mass):
     """Give the nodes of a row their share by mass of its horizontal sum, and nothing vertical."""
-    for row in range(mass.shape[0]):
-        total = mass[row].sum()
-        per_mass = sums[row, 0].sum() / total if total > SMALLEST_MASS else 0.0
-        sums[row, 0] = per_mass * mass[row]
-        sums[row, 1] = 0.0
+    for j in range(mass.shape[0]):
+        row_sum = row_mass = 0.0
+        for i in range(mass.shape[1]):
+            row_sum += sums[j, 0, i]
+            row_mass += mass[j, i]
+        per_mass = row_sum / row_mass if row_mass > SMALLEST_MASS else 0.0
+        for i in range(mass.shape[1]):
+            sums[j, 0, i] = per_mass * mass[j, i]
+            sums[j, 1, i] = 0.0
 
 
-@inlined
+@sweep
+def move_as_rows(velocity, mass):
+    """Give the nodes of a row with mass the horizontal velocity of the row, and no vertical one."""
+    for j in range(mass.shape[0]):
+        for i in range(mass.shape[1]):
+            velocity[j, 0, i] *= mass[j, i]
+    share_in_rows(velocity, mass)
+    for j in range(mass.shape[0]):
+        for i in range(mass.shape[1]):
+            velocity[j, 0, i] /= max(mass[j, i], SMALLEST_MASS)
+
+
+@sweep
 def hold(vectors, base, top, value):
     """Hold the rows up to ``base`` at rest and those from ``top`` at ``value``."""
-    vectors[: base + 1] = 0.0
-    vectors[top:, 0] = value
-    vectors[top:, 1] = 0.0
+    for j in range(vectors.shape[0]):
+        if j <= base or j >= top:
+            for i in range(vectors.shape[2]):
+                vectors[j, 0, i] = value if j >= top else 0.0
+                vectors[j, 1, i] = 0.0
 
 
 @kernel
@@ -68,9 +89,7 @@ def shear(particles, grid, work, laws, scheme, base, top, drive, dt, steps):
         hold(grid.acceleration, base, top, 0.0)
         hold(grid.velocity, base, top, drive)
         accelerate(tiles, grid, work, scheme, 0.0, dt)
-        grid.remapped[:, 0] *= grid.mass
-        share_in_rows(grid.remapped, grid.mass)
-        grid.remapped[:, 0] /= np.maximum(grid.mass, SMALLEST_MASS)
+        move_as_rows(grid.remapped, grid.mass)
         hold(grid.remapped, base, top, drive)
         wrap_around(tiles, width)
         deform(tiles, grid, work.ledger, laws, scheme, 0.0, dt)
