@@ -22,7 +22,7 @@ from shear_band import (
     soil_on_cells,
 )
 
-from solver._jit import kernel
+from solver._jit import kernel, sweep
 from solver.deformation import deform
 from solver.elastic import shear_modulus
 from solver.operations import INTERNAL_WORK, solve_momentum
@@ -35,25 +35,30 @@ RADIUS, HELD, DRIVEN, RIM, SIZE = 6.0, 4.0, 8.0, 2.0, 22.0  # m: of the band, th
 SLIP, SAMPLES = 0.8, 40  # m at RADIUS, where the drive is DRIVE, looks on the way
 
 
+@sweep
+def prescribe(vectors, is_prescribed, values):
+    """Give some nodes their values; a loop, since Numba compiles assignments of slices for seconds."""
+    for j in range(vectors.shape[0]):
+        for i in range(vectors.shape[2]):
+            if is_prescribed[j, i]:
+                vectors[j, 0, i] = values[j, 0, i]
+                vectors[j, 1, i] = values[j, 1, i]
+
+
 @kernel
-def turn(particles, grid, work, laws, scheme, is_held, is_driven, velocity, dt, steps):
-    """Hold some nodes and drive others at ``velocity`` (rows, 2, columns); return the work of the stresses in J/m."""
+def turn(particles, grid, work, laws, scheme, is_prescribed, velocity, dt, steps):
+    """Move some nodes at ``velocity`` (rows, 2, columns), in m/s; return the work of the stresses in J/m."""
+    at_rest = np.zeros_like(velocity)
     work.ledger[INTERNAL_WORK] = 0.0
     tiles = fill_tiles(particles, grid, work.tiles)
     spread_all(tiles, grid, scheme)
     for _ in range(steps):
         tiles = sort_if_due(tiles, grid)
         solve_momentum(grid, 0.0, scheme.damping, dt)
-        for j in range(grid.rows):
-            for i in range(grid.columns):
-                if is_held[j, i] or is_driven[j, i]:
-                    grid.acceleration[j, :, i] = 0.0
-                    grid.velocity[j, :, i] = velocity[j, :, i]
+        prescribe(grid.acceleration, is_prescribed, at_rest)
+        prescribe(grid.velocity, is_prescribed, velocity)
         accelerate(tiles, grid, work, scheme, 0.0, dt)
-        for j in range(grid.rows):
-            for i in range(grid.columns):
-                if is_held[j, i] or is_driven[j, i]:
-                    grid.remapped[j, :, i] = velocity[j, :, i]
+        prescribe(grid.remapped, is_prescribed, velocity)
         deform(tiles, grid, work.ledger, laws, scheme, 0.0, dt)
     read_tiles(tiles, particles)
     return work.ledger[INTERNAL_WORK]
@@ -80,14 +85,14 @@ def ring(cell):
 
 
 def walls(grid):
-    """Return which nodes are held, which are driven (rows, columns), and their velocities (rows, 2, columns)."""
+    """Return which nodes are held or driven (rows, columns), and their velocities (rows, 2, columns)."""
     row, column = np.indices(grid.mass.shape)
     x = grid.origin + column * grid.cell_size - 0.5 * SIZE
     y = grid.origin + row * grid.cell_size - 0.5 * SIZE
     radius = np.hypot(x, y)
     is_driven = radius > DRIVEN
     velocity = DRIVE / RADIUS * np.stack([-y, x], axis=1) * is_driven[:, None, :]
-    return radius < HELD, is_driven, velocity
+    return (radius < HELD) | is_driven, velocity
 
 
 def shear_force(cell, rate, internal_length):
