@@ -43,7 +43,7 @@ def test_the_plain_loop_takes_the_same_step(plain):
         np.testing.assert_allclose(other, ours, rtol=0.0, atol=1e-12 * np.abs(ours).max())
 
 
-@pytest.mark.parametrize("scene", ["ma2023-printed", "ma2023"])
+@pytest.mark.parametrize("scene", [pytest.param("ma2023-printed", marks=pytest.mark.slow), "ma2023"])
 def test_the_timed_parts_make_up_the_step(plain, scene):
     slide = plain if scene == "ma2023-printed" else speed.Sliding(scene, CELL)
     slide.back()

@@ -49,6 +49,7 @@ def test_prandtl_strip_load_has_a_plateau_at_its_limit():
     assert pressure[-1] == pytest.approx(pressure[-15], rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["tresca", "drucker-prager"])
 def test_every_law_of_frictionless_ground_bears_the_strip_load(law):
     """In plane strain the circle of Drucker-Prager is that of Tresca, so their limit load is the same."""
