@@ -83,7 +83,8 @@ def push(particles, grid, work, laws, scheme, footing, velocity, dt, steps):
         force += prescribe(grid, footing, velocity, dt)
         accelerate(tiles, grid, work, scheme, 0.0, dt)
         for row, i in footing:
-            grid.remapped[row, :, i] = grid.velocity[row, :, i]
+            for axis in range(2):  # no slices, whose assignment Numba compiles for seconds
+                grid.remapped[row, axis, i] = grid.velocity[row, axis, i]
         deform(tiles, grid, work.ledger, laws, scheme, 0.0, dt)
     read_tiles(tiles, particles)
     return force / steps
