@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Sequence
 from contextlib import suppress
 from datetime import timedelta
 from io import TextIOWrapper
@@ -24,6 +25,15 @@ def width() -> int:
 def paragraph(heading: str, text: str, margin: int) -> str:
     """Return a text behind its heading, in lines that begin at a margin."""
     return fill(text, width(), initial_indent=f"  {heading}".ljust(margin), subsequent_indent=" " * margin)
+
+
+def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Return the lines of a table: a name to the left, numbers to the right, and a remark as long as it is."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return [
+        "  ".join([name.ljust(widths[0]), *map(str.rjust, numbers, widths[1:]), remark]).rstrip()
+        for name, *numbers, remark in rows
+    ]
 
 
 def duration(seconds: float) -> str:

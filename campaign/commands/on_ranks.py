@@ -6,10 +6,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from campaign.commands.scene_options import read_scene
+from campaign.commands.scene_options import add_scene, read_scene
+from campaign.exit_codes import ExitCode
 from campaign.running.launcher import SIZES
 
 if TYPE_CHECKING:
+    from campaign.running.means import Lead
     from campaign.scene import Scene
     from campaign.simulation.ground import Ground
 
@@ -48,3 +50,29 @@ def prepare(scene: "Scene", directory: Path) -> "Ground":
     from campaign.simulation.ground import prepare_to_run
 
     return prepare_to_run(scene, directory)
+
+
+def add_study(parser: argparse.ArgumentParser, name: str, realizations: int) -> None:
+    """Add the arguments of a study, which takes so many realizations if nobody says otherwise."""
+    add_scene(parser)
+    parser.add_argument("--out", metavar="DIR", type=Path, help=f"directory of the results (default: {name}-NAME)")
+    parser.add_argument("--budget", metavar="MINUTES", type=float, default=10.0, help="core time it may take")
+    parser.set_defaults(realizations=realizations)
+
+
+def carry_out_study(options: argparse.Namespace, load: "Callable[[], Lead]") -> ExitCode:
+    """Carry out a study on all ranks; `load` returns what leads it.
+
+    Raises
+    ------
+    CampaignError
+        When the scene is refused and no launcher waits for this process.
+    """
+    read = scene_reader(options)
+    from campaign.running.guard import ending_all_ranks
+    from campaign.running.stop_request import listening
+
+    with listening() as stop, ending_all_ranks():  # before anything else is imported, which may take long
+        from campaign.running.mpi import on_ranks
+
+        return on_ranks(read, lambda scene: options.out or Path(f"{options.command}-{scene.name}"), load(), stop=stop)

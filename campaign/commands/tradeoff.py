@@ -1,21 +1,20 @@
 """`campaign tradeoff`: speed against accuracy."""
 
 import argparse
-from pathlib import Path
+from typing import TYPE_CHECKING
 
-from campaign.commands.on_ranks import prepare, scene_reader
-from campaign.commands.scene_options import add_scene
+from campaign.commands.on_ranks import add_study, carry_out_study, prepare
 from campaign.exit_codes import ExitCode
+
+if TYPE_CHECKING:
+    from campaign.running.means import Lead
 
 HELP = "speed against accuracy: chart, table, recommended setting"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
-    add_scene(parser)
-    parser.add_argument("--out", metavar="DIR", type=Path, help="directory of the results (default: tradeoff-NAME)")
-    parser.add_argument("--budget", metavar="MINUTES", type=float, default=10.0, help="core time it may take")
-    parser.set_defaults(realizations=12)
+    add_study(parser, "tradeoff", realizations=12)
 
 
 def carry_out(options: argparse.Namespace) -> ExitCode:
@@ -26,17 +25,10 @@ def carry_out(options: argparse.Namespace) -> ExitCode:
     CampaignError
         When the scene is refused and no launcher waits for this process.
     """
-    read = scene_reader(options)
-    from campaign.running.guard import ending_all_ranks
-    from campaign.running.stop_request import listening
 
-    with listening() as stop, ending_all_ranks():  # before anything else is imported, which may take long
-        from campaign.running.mpi import on_ranks
+    def load() -> "Lead":
         from campaign.tradeoff.compare import lead
 
-        return on_ranks(
-            read,
-            lambda scene: options.out or Path(f"tradeoff-{scene.name}"),
-            lead(60 * options.budget, prepare),
-            stop=stop,
-        )
+        return lead(60 * options.budget, prepare)
+
+    return carry_out_study(options, load)

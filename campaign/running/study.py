@@ -7,7 +7,10 @@ kept with the realizations, so that it stays left out.
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
+from hashlib import sha256
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
@@ -18,7 +21,7 @@ from campaign.exit_codes import ExitCode
 from campaign.running.campaign_directory import CampaignDirectory
 from campaign.running.crew import Crew
 from campaign.running.level import Level
-from campaign.running.means import means_of
+from campaign.running.means import Lead, means_of
 from campaign.running.side_run import Means, SideRun, Stopped, make
 from campaign.running.stop_request import StopRequest
 from campaign.scene import Scene
@@ -33,6 +36,9 @@ from campaign.storage.layout import VARIANTS
 from campaign.terminal import counted, duration
 
 OWN = "as the scene says"
+
+LONGEST = 150
+"""Characters of the name of a variant's directory that say what it changes; file systems take 255 in all."""
 
 Changes = tuple[str, ...]
 """What a variant changes, as `--set` takes it; nothing where it is the scene itself."""
@@ -102,6 +108,23 @@ def conduct_study(
     return ExitCode.DONE
 
 
+def leading(prepare: Prepare, study: Callable[[CampaignDirectory, Means], str]) -> Lead:
+    """Return what conducts a study in an opened directory.
+
+    Parameters
+    ----------
+    prepare
+        Computes what realizations share.
+    study
+        As of `conduct_study`, with the directory.
+    """
+
+    def lead(directory: CampaignDirectory, crew: Crew, stop: StopRequest) -> ExitCode:
+        return conduct_study(directory, prepare, crew, stop, partial(study, directory))
+
+    return lead
+
+
 class Study:
     """Runs variants of a scene.
 
@@ -168,9 +191,20 @@ def named(changes: Changes) -> str:
     return ", ".join(change.replace("=", " = ", 1) for change in changes) or OWN
 
 
+def together(several: Iterable[Changes]) -> Changes:
+    """Return all changes at once; where two change the same, the first counts."""
+    changes = {change.partition("=")[0]: change for change in reversed([*chain.from_iterable(several)])}
+    return tuple(sorted(changes.values()))
+
+
 def directory_of(home: Path, changes: Changes) -> Path:
     """Return where the realizations of a variant are kept."""
-    return home / VARIANTS / re.sub(r"[^A-Za-z0-9.]+", "-", "_".join(changes)) if changes else home
+    return home / VARIANTS / _short(re.sub(r"[^A-Za-z0-9.]+", "-", "_".join(changes))) if changes else home
+
+
+def _short(name: str) -> str:
+    """Return a name of a directory as it is, or so much of it as a file system takes and what tells it from others."""
+    return name if len(name) <= LONGEST else f"{name[:LONGEST]}-{sha256(name.encode()).hexdigest()[:16]}"
 
 
 def _is_whole(scene: Scene, directory: Path) -> bool:

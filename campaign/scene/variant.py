@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from campaign.scene.cost import realization_seconds
 from campaign.scene.loading import load_scene
 from campaign.scene.scene import Scene
+from campaign.scene.units import PRESSURE, shown_in_unit
 
 
 def variant_of(scene: Scene, changes: Sequence[str]) -> Scene:
@@ -21,3 +22,13 @@ def variant_of(scene: Scene, changes: Sequence[str]) -> Scene:
     longer = max(1.0, realization_seconds(changed) / realization_seconds(scene))
     timeout = {"realization_timeout": longer * scene.campaign.realization_timeout}
     return changed.model_copy(update={"campaign": scene.campaign.model_copy(update=timeout)})
+
+
+def with_cell(scene: Scene, factor: float) -> str:
+    """Return the change to so many times the cell."""
+    return f"numerics.cell={factor * scene.numerics.cell:g} m"
+
+
+def with_stiffness(scene: Scene, factor: float) -> str:
+    """Return the change to so many times Young's modulus, with which waves and steps change by the root of it."""
+    return f"soil.young_modulus={shown_in_unit(factor * scene.soil.young_modulus, PRESSURE)}"

@@ -14,7 +14,14 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from campaign.seeds import Stream, generator
-from campaign.statistics.intervals import Interval, Sample, mean_interval, normal_quantile, unknown
+from campaign.statistics.intervals import (
+    Interval,
+    Sample,
+    mean_interval,
+    normal_quantile,
+    student_quantile,
+    unknown,
+)
 
 RESAMPLES = 2000
 """Of the bootstrap: the bounds of an interval are then known to a few per cent of its half-width."""
@@ -27,6 +34,9 @@ FEWEST_BEYOND = 2
 
 APART = 1e-9
 """From an estimated difference of proportions to the bounds of its interval, at least."""
+
+FEWEST_PAIRS = 3
+"""Of a difference of standard deviations: without one of them there must be two."""
 
 CHUNK = 500
 """Resamples in memory at a time."""
@@ -60,6 +70,32 @@ def mean_difference(first: Sample, other: Sample, confidence: float) -> Differen
     paired, *single = (float(np.var(values, ddof=1)) for values in (other - first, first, other))
     n = interval.n
     return Difference(_mean(first), _mean(other), interval, math.sqrt(paired / n), math.sqrt(sum(single) / n))
+
+
+def std_difference(first: Sample, other: Sample, confidence: float) -> Difference:
+    """Return the difference of standard deviations of `other` and `first`, each (n,), with a jackknife interval.
+
+    The interval is d +- t_{n-1} e, with e the standard error that leaving out one pair at a time gives (Efron and
+    Tibshirani 1993, chapter 11): the test of Pitman and Morgan holds for normal pairs only. Counted over 20,000 samples
+    of 20, 40 and 80 pairs, 95 % intervals hold the difference in 94 to 95 % of all cases for normal pairs, in 89 to
+    95 % for Student's t of 5 degrees of freedom, and in 85 to 94 % for lognormal pairs with a coefficient of variation
+    of 0.53: least for few pairs that are nearly proportional, whose interval is narrow.
+
+    Returns
+    -------
+    Difference
+        Errors and bounds are NaN with fewer than 3 pairs.
+    """
+    n = len(first)
+    here, there = (float(np.std(values, ddof=1)) if n > 1 else math.nan for values in (first, other))
+    if n < FEWEST_PAIRS:
+        return Difference(here, there, unknown(there - here, n), math.nan, math.nan)
+    singles = _stds_without_one(first), _stds_without_one(other)
+    paired, *errors = (_jackknife_error(values) for values in (singles[1] - singles[0], *singles))
+    reach = student_quantile(confidence, n - 1) * paired
+    estimate = there - here
+    interval = Interval(estimate, estimate - reach, estimate + reach, n)
+    return Difference(here, there, interval, paired, math.hypot(*errors))
 
 
 def proportion_difference(first: NDArray[np.bool_], other: NDArray[np.bool_], confidence: float) -> Difference:
@@ -148,6 +184,18 @@ def quantile_difference(first: Sample, other: Sample, probability: float, confid
     return Difference(
         here, there, Interval(there - here, lower, upper, n), float(np.std(paired)), float(np.std(unpaired))
     )
+
+
+def _stds_without_one(values: Sample) -> Sample:
+    """Return the standard deviations of all values but one each, (n,)."""
+    n, apart = len(values), np.square(values - np.mean(values))
+    rest = np.sum(apart) - n / (n - 1) * apart
+    return np.sqrt(rest.clip(min=0.0) / (n - 2))  # rounding may leave less than nothing of a lone outlier
+
+
+def _jackknife_error(without_one: Sample) -> float:
+    """Return the standard error of an estimate from those without one value each, (n,)."""
+    return math.sqrt((len(without_one) - 1) * float(np.var(without_one)))
 
 
 def _resampled(first: Sample, other: Sample, probability: float) -> tuple[Sample, Sample]:

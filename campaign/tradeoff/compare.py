@@ -1,16 +1,13 @@
 """`campaign tradeoff` from the first setting to the last, whoever computes."""
 
 from campaign.errors import RefusalError
-from campaign.exit_codes import ExitCode
 from campaign.running.campaign_directory import CampaignDirectory
-from campaign.running.crew import Crew
 from campaign.running.means import Lead
 from campaign.running.side_run import Means
-from campaign.running.stop_request import StopRequest
-from campaign.running.study import Study, conduct_study
+from campaign.running.study import Study, leading, together
 from campaign.scene import Scene
 from campaign.simulation.contract import Prepare
-from campaign.tradeoff.settings import finer, settings, together
+from campaign.tradeoff.settings import finer, settings
 from campaign.tradeoff.table import write_tradeoff
 from campaign.tradeoff.trials import Tradeoff, Trial, trial_of
 
@@ -18,16 +15,13 @@ from campaign.tradeoff.trials import Tradeoff, Trial, trial_of
 def lead(budget: float, prepare: Prepare) -> Lead:
     """Return what compares the settings of a directory's scene within a budget of core time [s]."""
 
-    def compare_here(directory: CampaignDirectory, crew: Crew, stop: StopRequest) -> ExitCode:
-        def study(means: Means) -> str:
-            scene = directory.scene
-            found = compare(scene, scene.campaign.realizations, budget, means)
-            write_tradeoff(found, directory.path)
-            return found.advice
+    def study(directory: CampaignDirectory, means: Means) -> str:
+        scene = directory.scene
+        found = compare(scene, scene.campaign.realizations, budget, means)
+        write_tradeoff(found, directory.path)
+        return found.advice
 
-        return conduct_study(directory, prepare, crew, stop, study)
-
-    return compare_here
+    return leading(prepare, study)
 
 
 def compare(scene: Scene, realizations: int, budget: float, means: Means) -> Tradeoff:

@@ -1,12 +1,11 @@
 """The settings of a scene among which speed and accuracy are to be weighed."""
 
-from collections.abc import Iterable, Sequence
-from itertools import chain
+from collections.abc import Sequence
 
 from campaign.accuracy.settings import SOFTER
 from campaign.running.study import OWN, Changes
 from campaign.scene import Scene
-from campaign.scene.units import PRESSURE, shown_in_unit
+from campaign.scene.variant import with_cell, with_stiffness
 from solver.timestep import largest_courant
 
 CHOICES: dict[str, Sequence[str | int | float]] = {
@@ -38,25 +37,19 @@ def in_short(changes: Changes) -> str:
 
 def finer(scene: Scene) -> Changes:
     """Return half the cell."""
-    return (_cell(scene, 0.5),)
+    return (with_cell(scene, 0.5),)
 
 
 def settings(scene: Scene) -> list[Changes]:
     """Return what to try, one thing at a time and with what that needs, and the cheap model of an accuracy."""
-    softer = f"soil.young_modulus={shown_in_unit(scene.soil.young_modulus / SOFTER, PRESSURE)}"
+    softer = with_stiffness(scene, 1 / SOFTER)
     single = (
         [f"{key}={value}", *needed(scene, key, value)]
         for key, values in CHOICES.items()
         for value in values
         if value != _own(scene, key)
     )
-    return [(softer,), (_cell(scene, 2.0),), (_cell(scene, 2.0), softer), *map(tuple, single)]
-
-
-def together(settings: Iterable[Changes]) -> Changes:
-    """Return all changes at once; where two change the same, the first counts."""
-    changes = {change.partition("=")[0]: change for change in reversed([*chain.from_iterable(settings)])}
-    return tuple(sorted(changes.values()))
+    return [(softer,), (with_cell(scene, 2.0),), (with_cell(scene, 2.0), softer), *map(tuple, single)]
 
 
 def needed(scene: Scene, key: str, value: str | int | float) -> list[str]:
@@ -71,10 +64,6 @@ def needed(scene: Scene, key: str, value: str | int | float) -> list[str]:
     step = [f"numerics.courant={largest:g}"] if 0.0 < largest < scene.numerics.courant else []
     averaged = own["basis"] == "bspline" and scene.numerics.locking == "cell-average"
     return step + ["numerics.locking=none"] * averaged
-
-
-def _cell(scene: Scene, factor: float) -> str:
-    return f"numerics.cell={factor * scene.numerics.cell:g} m"
 
 
 def _own(scene: Scene, key: str) -> str | int | float:

@@ -3,16 +3,15 @@
 import csv
 import io
 import math
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
-from campaign.errors import RefusalError
-from campaign.files import write_atomically
-from campaign.results import dataset
+from campaign.running.findings import leave
 from campaign.statistics.wording import metres
-from campaign.terminal import duration, say
+from campaign.terminal import aligned, duration
 from campaign.tradeoff.settings import in_short
 from campaign.tradeoff.trials import Tradeoff, Trial
 
@@ -47,13 +46,8 @@ def write_tradeoff(found: Tradeoff, directory: Path) -> None:
     RefusalError
         When nothing can be written.
     """
-    try:
-        write_atomically(directory / f"{NAME}.csv", as_csv(found).encode())
-        dataset.write(as_dataset(found), directory / f"{NAME}.nc")
-        say(f"\n{table(found)}\n\n{found.advice}{_how(found)}")
-        _draw(found, directory / f"{NAME}.png")
-    except OSError as error:
-        raise RefusalError(f"{directory} cannot be written ({error}); give another --out, or make room.") from error
+    told = f"{table(found)}\n\n{found.advice}{_how(found)}"
+    leave(directory / NAME, as_csv(found), as_dataset(found), told, partial(_draw, found))
 
 
 def in_order(found: Tradeoff) -> list[Trial]:
@@ -66,17 +60,11 @@ def in_order(found: Tradeoff) -> list[Trial]:
 def table(found: Tradeoff) -> str:
     """Return the table for a terminal."""
     titles = ("setting", "core s", "shift of the mean", "std m", "campaign", "error m", "")
-    lines = [titles, *(_line(trial, found) for trial in in_order(found))]
-    widths = [max(len(line[column]) for line in lines) for column in range(len(titles) - 1)]
     about = (
         f"{len(found.reference.runouts)} realizations in each setting; campaigns until sampling adds "
         f"{found.sampling:.2f} m to the total error"
     )
-    told = [
-        "  ".join([name.ljust(widths[0]), *map(str.rjust, numbers, widths[1:]), remark]).rstrip()
-        for name, *numbers, remark in lines
-    ]
-    return "\n".join([about, *told])
+    return "\n".join([about, *aligned([titles, *(_line(trial, found) for trial in in_order(found))])])
 
 
 def _line(trial: Trial, found: Tradeoff) -> tuple[str, ...]:
@@ -186,7 +174,7 @@ def _numbers(trial: Trial, found: Tradeoff) -> dict[str, float]:
 
 
 def _draw(found: Tradeoff, path: Path) -> None:
+    """Load what draws when there is something to draw."""
     from campaign.tradeoff.chart import draw
 
     draw(found, path)
-    say(f"Chart: {path}")

@@ -12,12 +12,12 @@ from small_campaign import small_scene
 from campaign import cli
 from campaign.record import Status
 from campaign.report.figures.style import in_style
-from campaign.running.study import OWN
+from campaign.running.study import OWN, together
 from campaign.scene import load_scene
 from campaign.simulation.ground import prepare
 from campaign.tradeoff import settings as choices
 from campaign.tradeoff.chart import chart
-from campaign.tradeoff.settings import finer, needed, settings, together
+from campaign.tradeoff.settings import finer, needed, settings
 from campaign.tradeoff.table import as_csv, as_dataset, table
 from campaign.tradeoff.trials import Tradeoff, Trial
 
