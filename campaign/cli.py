@@ -18,14 +18,14 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_
 DEFAULT = ["run", "ma2023"]
 """What is done without arguments."""
 
-SHARED = ("run", "tradeoff")
+SHARED = ("run", "tradeoff", "screen")
 """The commands that several processes carry out together."""
 
 DESCRIPTION = """\
 How far will this slope run, and how sure are we? Without a command, "campaign" computes the built-in scene ma2023
 ("campaign run ma2023"), which takes minutes."""
 
-COMMANDS = ("run", "new", "validate", "draw", "status", "report", "replay", "compare", "tradeoff", "scenes")
+COMMANDS = ("run", "new", "validate", "draw", "status", "report", "replay", "compare", "tradeoff", "screen", "scenes")
 """Modules of `campaign.commands`, in the order of the help."""
 
 

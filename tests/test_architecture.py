@@ -72,7 +72,8 @@ def test_only_the_runner_knows_mpi():
 
 def test_only_the_figures_know_matplotlib():
     assert all(
-        name.startswith(("campaign.report.figures.", "campaign.tradeoff.chart")) for name in importers_of("matplotlib")
+        name.startswith(("campaign.report.figures.", "campaign.tradeoff.chart", "campaign.screening.chart"))
+        for name in importers_of("matplotlib")
     )
 
 
@@ -95,7 +96,7 @@ ROOMS = (
     "campaign.comparison",
     "campaign.report",
     "campaign.running",
-    "campaign.tradeoff",
+    "campaign.tradeoff campaign.screening",
     "campaign.commands",
     "campaign.cli campaign.__main__",
 )

@@ -28,7 +28,8 @@ def refuse_several(command: str, environment: Mapping[str, str]) -> None:
     number = environment.get(RANKS[SIZES.index(launched[0])], "0")
     raise RefusalError(
         f'The launcher started {launched[1]} processes, and each would carry out "campaign {command}" alone, in the '
-        "same place; start it without mpirun or srun. Only campaign run and tradeoff share their work among ranks."
+        "same place; start it without mpirun or srun. Only campaign run, tradeoff and screen share their work among "
+        "ranks."
         if number == "0"
         else ""
     )

@@ -190,7 +190,8 @@ def _stds_without_one(values: Sample) -> Sample:
     """Return the standard deviations of all values but one each, (n,)."""
     n, apart = len(values), np.square(values - np.mean(values))
     rest = np.sum(apart) - n / (n - 1) * apart
-    return np.sqrt(rest.clip(min=0.0) / (n - 2))  # rounding may leave less than nothing of a lone outlier
+    # Rounding may leave less than nothing of a lone outlier.
+    return np.asarray(np.sqrt(rest.clip(min=0.0) / (n - 2)))
 
 
 def _jackknife_error(without_one: Sample) -> float:

@@ -12,7 +12,7 @@ from campaign.running.crew import Alone
 from campaign.running.means import means_of
 from campaign.running.side_run import Stopped
 from campaign.running.stop_request import StopRequest
-from campaign.running.study import OWN, Study, conduct_study, named
+from campaign.running.study import OWN, Study, conduct_study, directory_of, named
 from campaign.scene.cost import realization_seconds
 from campaign.storage import manifest
 
@@ -113,3 +113,11 @@ def test_a_study_says_how_it_ended(directory, stop):
 
 def test_changes_are_named_as_they_are_written():
     assert named(("numerics.basis=linear", "numerics.courant=0.2")) == "numerics.basis = linear, numerics.courant = 0.2"
+
+
+def test_directories_of_long_changes_differ_and_fit_a_file_system(tmp_path):
+    many = tuple(f"soil.cohesion.mean={k} kPa" for k in range(30))
+    one, other = directory_of(tmp_path, many), directory_of(tmp_path, (*many[:-1], "soil.cohesion.mean=99 kPa"))
+    assert one != other
+    assert len(one.name) < 200
+    assert directory_of(tmp_path, (FINER,)).name == "numerics.cell-1-m"

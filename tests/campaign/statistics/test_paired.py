@@ -12,6 +12,7 @@ from campaign.statistics.paired import (
     mean_difference,
     proportion_difference,
     quantile_difference,
+    std_difference,
 )
 
 
@@ -30,6 +31,39 @@ def test_the_difference_of_means_is_that_of_a_paired_t_test():
     assert found.paired_error == pytest.approx(stats.sem(other - first))
     assert found.unpaired_error == pytest.approx(math.hypot(stats.sem(first), stats.sem(other)))
     assert found.paired_error < 0.6 * found.unpaired_error
+
+
+def test_the_error_of_a_difference_of_standard_deviations_is_the_jackknifes():
+    """Against leaving out one pair after the other."""
+    first, other = pairs(3, 23)
+    singles = [np.std(np.delete(other, k), ddof=1) - np.std(np.delete(first, k), ddof=1) for k in range(23)]
+    found = std_difference(first, other, 0.95)
+    error = math.sqrt(22 / 23 * np.sum((singles - np.mean(singles)) ** 2))
+    assert found.paired_error == pytest.approx(error)
+    estimate = np.std(other, ddof=1) - np.std(first, ddof=1)
+    reach = stats.t.ppf(0.975, 22) * error
+    assert found.interval[:] == pytest.approx((estimate, estimate - reach, estimate + reach, 23))
+
+
+def test_an_interval_of_a_difference_of_standard_deviations_holds_it_as_often_as_it_says():
+    """Normal pairs with a correlation of 0.9 and standard deviations of 1 and 0.8, 24 of them, 2000 times.
+
+    20,000 times it was 94.2 %. Below 92 % or above 97 % is a false alarm with a probability below 1e-4.
+    """
+    rng = np.random.default_rng(4)
+    first, noise = rng.normal(size=(2, 2000, 24))
+    other = 0.8 * (0.9 * first + math.sqrt(1 - 0.81) * noise)
+    intervals = [std_difference(*each, 0.95).interval for each in zip(first, other, strict=True)]
+    assert 0.92 < np.mean([interval.lower <= -0.2 <= interval.upper for interval in intervals]) < 0.97
+
+
+@pytest.mark.parametrize("values", [np.zeros(5), np.array([0.0, 0.0, 7.0, 0.0])])
+def test_standard_deviations_that_do_not_differ_are_known_not_to(values):
+    assert std_difference(values, values + 1.0, 0.95).interval[:3] == (0.0, 0.0, 0.0)
+
+
+def test_two_pairs_tell_no_difference_of_standard_deviations():
+    assert not std_difference(np.zeros(2), np.ones(2), 0.95).interval.is_known
 
 
 def test_a_published_difference_of_paired_proportions():

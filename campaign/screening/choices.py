@@ -1,0 +1,157 @@
+"""The modelling choices of a scene, each with a simpler or another one to take its place.
+
+A choice is there only where the scene has made it: ground that is isotropic already has no isotropy to be tried.
+"""
+
+import json
+from collections.abc import Iterable, Iterator
+from math import isclose, pi, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from campaign.fields.properties import BY_NAME, value_of
+from campaign.running.study import Changes
+from campaign.scene import Scene
+from campaign.scene.ground_surface import surface_of
+from campaign.scene.units import PRESSURE, shown_in_unit
+from campaign.scene.variant import with_cell, with_stiffness
+from campaign.simulation.scene_sampler import CELLS_PER_DISTANCE, correlation_of
+from campaign.statistics.release import OTHER
+
+NOT_RANDOM = 1e-6
+"""Coefficient of variation in the place of none, which a scene does not take for a peak strength."""
+
+SOFTER = 4.0
+"""By which Young's modulus is divided: steps become twice as long."""
+
+PEAKS = ("friction_angle", "cohesion")
+RESIDUALS = ("cohesion_residual", "friction_angle_residual")
+
+
+class Choice(NamedTuple):
+    """A modelling choice to be tried.
+
+    Attributes
+    ----------
+    name
+        What the scene models.
+    instead
+        What would take its place.
+    changes
+        What that changes in the scene.
+    redraws
+        Whether realizations have other random fields then, because the box or the correlation of the ground changes:
+        pairs share no more than the seed, and intervals are as wide as those of independent samples.
+    simplifies
+        Whether less is modelled then. What is merely different is judged, and stays as it is.
+    why_not
+        Why it cannot be tried, "" if it can.
+    """
+
+    name: str
+    instead: str
+    changes: Changes
+    redraws: bool = False
+    simplifies: bool = True
+    why_not: str = ""
+
+
+def choices_of(scene: Scene) -> list[Choice]:
+    """Return the choices that a scene has made, the soil before the ground and the ground before the numbers."""
+    return [*_soil(scene), *_field(scene), *_ground(scene), *_numerics(scene)]
+
+
+def _soil(scene: Scene) -> Iterator[Choice]:
+    for row in (BY_NAME[name] for name in PEAKS):
+        cov = value_of(scene, row.cov_key)
+        if cov is not None and cov > NOT_RANDOM:
+            yield Choice(f"random {row.long_name}", "its mean", (f"{row.cov_key}={NOT_RANDOM:g}",))
+    if drawn := [name for name in RESIDUALS if value_of(scene, BY_NAME[name].cov_key)]:
+        fixed = [f"{BY_NAME[name].cov_key}=0" for name in drawn]
+        yield Choice("random residual strength", "its mean", (*fixed, *_pairs_without(scene, drawn)))
+    if scene.soil.softening.law != "none":
+        yield Choice("softening", "none", ("soil.softening.law=none",))
+    if scene.soil.dilation_angle > 0.0:
+        yield Choice("dilation", "none", ("soil.dilation_angle=0 deg",))
+    modulus = scene.soil.young_modulus
+    instead = shown_in_unit(modulus / SOFTER, PRESSURE)
+    yield Choice(f"modulus {shown_in_unit(modulus, PRESSURE)}", instead, (with_stiffness(scene, 1 / SOFTER),))
+
+
+def _pairs_without(scene: Scene, names: Iterable[str]) -> list[str]:
+    """Return the cross-correlations of pairs without those of some properties, if there are any pairs."""
+    pairs = scene.field.pairs.model_dump(exclude_none=True)
+    if not any(pairs.values()):
+        return []
+    kept = {
+        one: ", ".join(f"{other} = {rho!r}" for other, rho in partners.items() if other not in names)
+        for one, partners in pairs.items()
+        if one not in names
+    }
+    return [f"field.pairs={{{', '.join(f'{one} = {{{partners}}}' for one, partners in kept.items())}}}"]
+
+
+def _field(scene: Scene) -> Iterator[Choice]:
+    field = scene.field
+    if field.cross_correlations():
+        changes = ("field.cross_correlation=0", *_pairs_without(scene, BY_NAME))
+        yield Choice("cross-correlation", "none", changes)
+    if not isclose(field.horizontal, field.vertical):
+        length = sqrt(field.horizontal * field.vertical)
+        changes = tuple(_isotropic(scene, _metres(length)))
+        yield Choice("two correlation lengths", f"one, {length:.3g} m", changes, redraws=True)
+    if field.angle % pi:
+        yield Choice("rotated correlation", "not rotated", ("field.angle=0 deg",), redraws=True)
+
+
+def _isotropic(scene: Scene, length: str) -> Iterator[str]:
+    """Yield one length for both, on a grid as fine as that of the scene."""
+    yield from (f"field.horizontal={length}", f"field.vertical={length}")
+    if scene.field.resolution is None:
+        distances = correlation_of(scene.field)
+        yield f"field.resolution={_metres(min(distances.horizontal, distances.vertical) / CELLS_PER_DISTANCE)}"
+
+
+def _ground(scene: Scene) -> Iterator[Choice]:
+    slope = scene.geometry.slope
+    if slope is None:
+        yield from _profile(scene)
+        return
+    # Receptors are given by their x, which a shorter crest would move with the toe.
+    why_not = "left out: it would move the receptors" if scene.receptor else ""
+    for part, reason in (("foundation", ""), ("crest", why_not), ("plain", "")):
+        length = getattr(slope, part)
+        half = _metres(length / 2)
+        changes = (f"geometry.slope.{part}={half}",)
+        yield Choice(f"{part} of {_metres(length)}", half, changes, redraws=True, why_not=reason)
+
+
+def _profile(scene: Scene) -> Iterator[Choice]:
+    """Yield the same of a ground that is given by points, but for its crest, from which all x are measured."""
+    surface = surface_of(scene.geometry)
+    toe_x, depth = surface.toe_x, float(surface.y.min())
+    if depth:
+        lower = (_points(surface.x, surface.y - depth / 2),)
+        yield Choice(f"foundation of {_metres(depth)}", _metres(depth / 2), lower, redraws=True)
+    half = (surface.width - toe_x) / 2
+    inside = surface.x < toe_x + half
+    x = np.append(surface.x[inside], toe_x + half)
+    y = np.append(surface.y[inside], surface.height_at(x[-1:]))
+    shorter = (_points(x, y), f"geometry.toe={_metres(toe_x)}")
+    yield Choice(f"plain of {_metres(2 * half)}", _metres(half), shorter, redraws=True)
+
+
+def _points(x: Iterable[float], y: Iterable[float]) -> str:
+    return f"geometry.surface={json.dumps([[_metres(one) for one in point] for point in zip(x, y, strict=True)])}"
+
+
+def _numerics(scene: Scene) -> Iterator[Choice]:
+    gravity, cell = scene.numerics.gravity, scene.numerics.cell
+    other = OTHER[gravity]
+    yield Choice(f'gravity "{gravity}"', f'"{other}"', (f"numerics.gravity={other}",), simplifies=other == "release")
+    yield Choice(f"cells of {_metres(cell)}", _metres(2 * cell), (with_cell(scene, 2.0),))
+
+
+def _metres(length: float) -> str:
+    return f"{length:.6g} m"

@@ -1,0 +1,110 @@
+"""A scene is screened for the choices that it has made, each one a valid scene of its own."""
+
+import numpy as np
+import pytest
+
+from campaign.scene import load_scene
+from campaign.scene.ground_surface import surface_of
+from campaign.screening.choices import NOT_RANDOM, choices_of
+from campaign.simulation.scene_sampler import strength_sampler
+
+ALL = [
+    "field.angle=10 deg",
+    "soil.dilation_angle=1 deg",
+    "soil.cohesion.residual_cov=0.1",
+    "soil.friction_angle.residual_cov=0.1",
+    "field.pairs={cohesion = {cohesion_residual = 0.5}}",
+    "field.resolution=0.5 m",
+]
+ROAD = 'receptor=[{name = "road", x = "46 m"}]'
+PROFILE = [
+    'geometry={surface = [["0 m", "19 m"], ["20 m", "19 m"], ["35 m", "4 m"], ["75 m", "4 m"]]}',
+    *ALL,
+]
+
+
+def by_name(scene):
+    return {choice.name: choice for choice in choices_of(scene)}
+
+
+def changed(scene, name):
+    return load_scene(scene, by_name(scene)[name].changes)
+
+
+def test_what_a_scene_does_not_model_is_not_screened():
+    names = by_name(load_scene("ma2023"))
+    assert not names.keys() & {"dilation", "rotated correlation", "random residual strength"}
+    assert "softening" not in by_name(load_scene("bui2008"))
+    assert "two correlation lengths" not in by_name(load_scene("ma2023", ["field.horizontal=2 m"]))
+    assert "cross-correlation" not in by_name(load_scene("ma2023", ["field.cross_correlation=0"]))
+
+
+def test_a_scene_with_every_choice_is_screened_for_each():
+    assert len(by_name(load_scene("ma2023", ALL))) == 14
+
+
+@pytest.mark.parametrize("overrides", [[], ALL, PROFILE, [*PROFILE, ROAD], [*ALL, ROAD]])
+def test_every_choice_leaves_a_valid_scene_with_another_identity(overrides):
+    scene = load_scene("ma2023", overrides)
+    for choice in choices_of(scene):
+        if not choice.why_not:
+            assert load_scene(scene, choice.changes).digest() != scene.digest(), choice.name
+
+
+def test_what_takes_the_place_of_a_choice():
+    scene = load_scene("ma2023", ALL)
+    assert changed(scene, "random peak cohesion").soil.cohesion.cov == NOT_RANDOM
+    assert changed(scene, "random residual strength").soil.cohesion.residual_cov is None
+    assert not changed(scene, "cross-correlation").field.cross_correlations()
+    isotropic = changed(scene, "two correlation lengths").field
+    assert isotropic.horizontal == isotropic.vertical == pytest.approx(40**0.5, rel=1e-5)
+    assert changed(scene, "modulus 100 MPa").soil.young_modulus == 25e6
+
+
+def test_isotropic_fields_are_drawn_on_a_grid_as_fine():
+    """Left out, it is an eighth of the shorter distance, 2 m."""
+    text = load_scene("ma2023").text.replace("resolution =", "# resolution =")
+    from campaign.scene import scene_of
+
+    assert changed(scene_of(text), "two correlation lengths").field.resolution == 0.25
+
+
+def test_only_what_simplifies_may_be_dropped_together_with_others():
+    """A ramp models more than a release."""
+    assert not by_name(load_scene("ma2023"))['gravity "release"'].simplifies
+    assert by_name(load_scene("ma2023", ["numerics.gravity=ramp"]))['gravity "ramp"'].simplifies
+
+
+def test_the_crest_stays_where_receptors_are_measured_from_it():
+    scene = load_scene("ma2023", [ROAD])
+    assert "receptors" in by_name(scene)["crest of 20 m"].why_not
+    for name in ("foundation of 4 m", "plain of 40 m"):
+        assert surface_of(changed(scene, name).geometry).toe_x == surface_of(scene.geometry).toe_x
+
+
+def test_a_profile_loses_half_its_foundation_and_half_its_plain():
+    scene = load_scene("ma2023", PROFILE)
+    own = surface_of(scene.geometry)
+    lower, shorter = (surface_of(changed(scene, name).geometry) for name in ("foundation of 4 m", "plain of 40 m"))
+    assert np.array_equal(lower.y, own.y - 2)
+    assert (shorter.width, shorter.toe_x) == (55, 35)
+    assert shorter.height_at(np.array([30.0])) == own.height_at(np.array([30.0]))
+
+
+def cohesion(scene, x, above_base):
+    """Return the standard Gaussian field behind the cohesion of realization 0, by distances from the toe (m)."""
+    surface = surface_of(scene.geometry)
+    sampler = strength_sampler(scene, surface.width, surface.top)
+    drawn = sampler.draw(scene.campaign.seed, 0).at(x + surface.toe_x, above_base)["cohesion"]
+    law = sampler.marginals["cohesion"]
+    return (np.log(drawn) - law.log_mean) / law.sigma
+
+
+def test_realizations_have_the_same_fields_but_where_a_choice_says_otherwise():
+    """Seen from the toe; the foundation's is seen from the base, below which there is as much ground less."""
+    scene = load_scene("ma2023", ALL)
+    x, y = np.random.default_rng(0).uniform([[-20.0], [0.5]], [[10.0], [3.5]], (2, 200))
+    own = cohesion(scene, x, y)
+    for choice in choices_of(scene):
+        there = cohesion(load_scene(scene, choice.changes), x, y)
+        assert np.allclose(there, own, atol=1e-5) != choice.redraws, choice.name
