@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from itertools import cycle
 from pathlib import Path
 from textwrap import fill
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -106,7 +107,12 @@ def _name(panels: Sequence[Axes], rows: Sequence[Screened], found: Screening) ->
     for axes in panels:
         axes.tick_params(axis="y", length=0)
     for place, each in enumerate(rows):
-        at, style = (1.03, place), {"xycoords": last.get_yaxis_transform(), "textcoords": "offset points"}
-        colour, told = COLOURS[each.verdict], f"cost × {found.cost(each):.2g}{', ' * bool(each.reason)}{each.reason}"
-        last.annotate(str(each.verdict), at, (0, 4), **style, va="center", fontsize=8, weight="bold", color=colour)
-        last.annotate(told, at, (0, -5), **style, va="center", fontsize=6.5, color=BLACK)
+        told = f"cost × {found.cost(each):.2g}{', ' * bool(each.reason)}{each.reason}"
+        _write(last, place, 4.0, str(each.verdict), COLOURS[each.verdict], fontsize=8, weight="bold")
+        _write(last, place, -5.0, told, BLACK, fontsize=6.5)
+
+
+def _write(axes: Axes, place: int, above: float, words: str, colour: str, **font: Any) -> None:
+    """Write words to the right of a row, so many points above its middle."""
+    at = (1.03, place), (0, above), axes.get_yaxis_transform(), "offset points"
+    axes.annotate(words, *at, va="center", color=colour, **font)

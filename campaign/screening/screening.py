@@ -74,6 +74,8 @@ class Screened:
         """What the numbers of the answer do not show of a verdict, "" where they show it."""
         if self.is_spoiled:
             return f"{100 * self.spoiled.estimate:.0f} % more fail or reach a wall"
+        if self.verdict is Verdict.DROP and not self.choice.simplifies:
+            return "either will do"
         if self.verdict is not Verdict.OPEN or self.why_not:
             return self.why_not
         if self.needed is None:

@@ -82,6 +82,7 @@ def test_what_may_be_dropped_is_run_once_more_all_at_once(screened):
 def test_what_is_merely_different_stays_as_it_is(screened):
     found = screened(UNCORRELATED, RAMP._replace(changes=("numerics.courant=0.7",)))
     assert [each.verdict for each in found.choices] == [Verdict.DROP, Verdict.DROP]
+    assert found.choices[1].remark == "may drop: either will do"
     assert found.droppable == found.choices[:1]
     assert found.simplified is found.choices[0]
 
