@@ -46,7 +46,7 @@ def draw(found: Screening, path: Path) -> None:
 def chart(found: Screening) -> Illustration:
     """Draw the changes of mean and standard deviation, and beside them those of probabilities."""
     alone = [each for each in found.ranked if each.effects]
-    rows = [*alone, *(each for each in found.together if each.effects)]
+    rows = [each for each in found.rows if each.effects]
     height = OVERHEAD + ROW * len(rows)
     figure = Figure(figsize=(WIDE, height))
     panels = figure.subplots(1, 2, sharey=True, width_ratios=(1.5, 1.0))

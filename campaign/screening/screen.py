@@ -1,6 +1,6 @@
 """`campaign screen` from the first choice to the last, whoever computes."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from campaign.errors import RefusalError
@@ -11,13 +11,12 @@ from campaign.running.study import Outcome, Study, leading, together
 from campaign.scene import Scene
 from campaign.screening.choices import Choice, choices_of
 from campaign.screening.effects import Realizations, effects_of, realizations_of, spoiled
-from campaign.screening.screening import Screened, Screening
+from campaign.screening.screening import Combination, Screened, Screening
 from campaign.screening.simplified import refuse_to_overwrite, write_simplified
 from campaign.screening.table import write_screening
 from campaign.screening.verdict import Verdict
 from campaign.simulation.contract import Prepare
 from campaign.statistics.paired import FEWEST_PAIRS
-from campaign.terminal import listing
 
 
 def lead(budget: float, prepare: Prepare, simplified: Path | None = None) -> Lead:
@@ -72,7 +71,7 @@ def screen(scene: Scene, realizations: int, budget: float, means: Means) -> Scre
         return _screened(choice, study.run(*choice.changes), own, means.home)
 
     alone = Screening(scene, own, [tried(choice) for choice in choices_of(scene)])
-    return Screening(scene, own, alone.choices, _at_once(alone.droppable, tried))
+    return Screening(scene, own, alone.choices, _at_once(alone.droppable, tried) if len(alone.droppable) > 1 else [])
 
 
 def _screened(choice: Choice, outcome: Outcome, own: Realizations, home: Path) -> Screened:
@@ -85,14 +84,22 @@ def _screened(choice: Choice, outcome: Outcome, own: Realizations, home: Path) -
     return Screened(choice, there, effects_of(outcome.scene, own, there), spoiled(own, there, confidence))
 
 
-def _at_once(droppable: list[Screened], tried: Callable[[Choice], Screened]) -> list[Screened]:
-    """Try all at once; while that is too much, without the one that may change most."""
-    attempts: list[Screened] = []
-    for first in range(len(droppable) - 1):
-        left, taken = [each.choice for each in droppable[:first]], [each.choice for each in droppable[first:]]
-        name = f"all that may drop{f' but {listing([each.name for each in left])}' if left else ''}"
-        changes = together([each.changes for each in taken])
-        attempts.append(tried(Choice(name, "at once", changes, any(each.redraws for each in taken))))
-        if attempts[-1].verdict is Verdict.DROP or attempts[-1].why_not:
-            break
+def _at_once(droppable: Sequence[Screened], tried: Callable[[Choice], Screened]) -> list[Combination]:
+    """Try all at once, and where that is too much one after the other, from the one that may change least."""
+
+    def combined(name: str, members: Sequence[Choice]) -> Combination:
+        changes, redraws = together([each.changes for each in members]), any(each.redraws for each in members)
+        return Combination(tuple(members), tried(Choice(name, "at once", changes, redraws)))
+
+    *rest, first = [each.choice for each in droppable]
+    attempts = [combined("all that may drop", [*rest, first])]
+    if attempts[0].screened.verdict is Verdict.DROP or len(rest) == 1:
+        return attempts
+    taken = [first]
+    for choice in reversed(rest):
+        attempts.append(
+            combined(f"{taken[0].name if len(taken) == 1 else 'these'} and {choice.name}", [*taken, choice])
+        )
+        if attempts[-1].screened.verdict is Verdict.DROP:
+            taken.append(choice)
     return attempts

@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 from campaign.scene import Scene
 from campaign.screening.choices import Choice
@@ -83,6 +84,13 @@ class Screened:
         return f"{counted(self.needed, 'realization')} would tell"
 
 
+class Combination(NamedTuple):
+    """Several choices, and what the scene without all of them has come to."""
+
+    members: tuple[Choice, ...]
+    screened: Screened
+
+
 @dataclass(frozen=True, eq=False)
 class Screening:
     """What the realizations of a scene tell of its choices.
@@ -95,13 +103,13 @@ class Screening:
     choices
         Each by itself.
     together
-        What may be dropped, all at once; where that was too much, what came next, with one less.
+        What was tried of those at once that may be dropped.
     """
 
     scene: Scene
     own: Realizations
     choices: Sequence[Screened]
-    together: Sequence[Screened] = ()
+    together: Sequence[Combination] = ()
 
     @property
     def metres(self) -> float:
@@ -115,20 +123,21 @@ class Screening:
 
     @property
     def droppable(self) -> list[Screened]:
-        """What may be dropped to model less, first what may change most."""
+        """What may be dropped to model less, first what may change most of all numbers together."""
         found = [each for each in self.choices if each.verdict is Verdict.DROP and each.choice.simplifies]
-        return sorted(found, key=lambda each: -max(effect.reach for effect in each.effects))
+        return sorted(found, key=lambda each: -sum(effect.reach for effect in each.effects))
 
     @property
-    def simplified(self) -> Screened | None:
-        """All that may be dropped at once, as it was run and judged; None if nothing may."""
-        last = self.together[-1] if self.together else None
-        if last is not None and last.verdict is Verdict.DROP:
-            return last
-        if last is not None and last.why_not:
-            return None
-        rest = self.droppable[len(self.together) :]
-        return rest[0] if rest else None
+    def simplified(self) -> Combination | None:
+        """As many as may be dropped at once, as they were run and judged; None if nothing may."""
+        alone = [Combination((each.choice,), each) for each in self.droppable[-1:]]
+        sound = [each for each in self.together if each.screened.verdict is Verdict.DROP]
+        return max(alone + sound, key=lambda each: len(each.members), default=None)
+
+    @property
+    def rows(self) -> list[Screened]:
+        """The choices as they are ranked, and below them what was tried at once."""
+        return [*self.ranked, *(each.screened for each in self.together)]
 
     def cost(self, each: Screened) -> float:
         """Return the core time without a choice, relative to that of the scene; NaN where nothing was run."""
@@ -151,9 +160,10 @@ class Screening:
         found = self.simplified
         if found is None:
             return "No simpler scene was found to be within the tolerances."
-        mean, left = found.effects[0].difference.interval, 100 * self.cost(found)
+        mean, left = found.screened.effects[0].difference.interval, 100 * self.cost(found.screened)
+        changed = "; ".join(f"{each.name} -> {each.instead}" for each in found.members)
         return (
-            f"The simplified scene, {found.name}, changes the mean run-out by {mean.estimate:+.2f} m "
+            f"The simplified scene ({changed}) changes the mean run-out by {mean.estimate:+.2f} m "
             f"({mean.lower:+.2f} to {mean.upper:+.2f} m), and a realization takes {left:.2g} % of the core time."
         )
 

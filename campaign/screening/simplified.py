@@ -55,7 +55,7 @@ def simplified_scene(found: Screening) -> str | None:
     simplified = found.simplified
     if simplified is None:
         return None
-    changes = simplified.choice.changes
+    changes = simplified.screened.choice.changes
     n = counted(len(found.own.runouts), "realization")
     told = [
         f"{HEADER} from {found.scene.name}: {n} differ by less than {found.tolerances}.",

@@ -36,7 +36,7 @@ def table(found: Screening) -> str:
     about = f"{counted(len(found.own.runouts), 'realization')} of each; what does not matter: {found.tolerances}"
     receptors = (f"P({receptor.name})" for receptor in found.scene.receptor)
     titles = ("choice -> instead", "mean m", "std m", "P(slide) points", *receptors, "cost", "verdict")
-    rows = [_line(each, found) for each in (*found.ranked, *found.together)]
+    rows = [_line(each, found) for each in found.rows]
     return "\n".join([about, *aligned([titles, *rows])])
 
 
@@ -61,7 +61,7 @@ def as_csv(found: Screening) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["choice", "instead", "number", "unit", "change", "lower", "upper", "tolerance", "cost", "verdict"])
-    for each in (*found.ranked, *found.together):
+    for each in found.rows:
         about, cost = (each.choice.name, each.choice.instead), found.cost(each)
         ending = (cost if math.isfinite(cost) else "", each.remark)
         if not each.effects:
@@ -74,7 +74,7 @@ def as_csv(found: Screening) -> str:
 
 def as_dataset(found: Screening) -> xr.Dataset:
     """Return every run-out by choice and realization, what each choice changes, and its verdict."""
-    rows = [*found.choices, *found.together]
+    rows = found.rows
     everything = [found.own, *(each.realizations for each in rows)]
     variables = {
         "final_runout": variable(

@@ -27,7 +27,7 @@ from campaign.screening import screen as whole
 from campaign.screening.chart import COLOURS, chart
 from campaign.screening.choices import Choice
 from campaign.screening.screen import screen
-from campaign.screening.screening import Screened, Screening
+from campaign.screening.screening import Combination, Screened, Screening
 from campaign.screening.simplified import HEADER, refuse_to_overwrite, simplified_scene, write_simplified
 from campaign.screening.table import as_csv, as_dataset, table
 from campaign.screening.verdict import Verdict, verdict_of
@@ -74,9 +74,10 @@ def test_every_choice_is_judged_by_what_it_changes(screened):
 def test_what_may_be_dropped_is_run_once_more_all_at_once(screened):
     found = screened(UNCORRELATED, COARSER, SOFTER)
     (at_once,) = found.together
-    assert at_once.choice.changes == (*UNCORRELATED.changes, *SOFTER.changes)
-    assert at_once.verdict is Verdict.DROP
+    assert at_once.screened.choice.changes == (*UNCORRELATED.changes, *SOFTER.changes)
+    assert at_once.screened.verdict is Verdict.DROP
     assert found.simplified is at_once
+    assert at_once.members == (UNCORRELATED, SOFTER)
 
 
 def test_what_is_merely_different_stays_as_it_is(screened):
@@ -84,7 +85,7 @@ def test_what_is_merely_different_stays_as_it_is(screened):
     assert [each.verdict for each in found.choices] == [Verdict.DROP, Verdict.DROP]
     assert found.choices[1].remark == "may drop: either will do"
     assert found.droppable == found.choices[:1]
-    assert found.simplified is found.choices[0]
+    assert found.simplified.screened is found.choices[0]
 
 
 def test_what_the_budget_leaves_out_is_not_known_and_not_dropped(screened):
@@ -172,7 +173,7 @@ def made_up():
         Screened(IMPOSSIBLE, why_not="left out: too long"),
     ]
     both = Choice("all that may drop", "at once", (*UNCORRELATED.changes, *SOFTER.changes))
-    return Screening(scene, own, choices, [changed(both, 0.25, 0.9)])
+    return Screening(scene, own, choices, [Combination((UNCORRELATED, SOFTER), changed(both, 0.25, 0.9))])
 
 
 def test_the_table_tells_differences_intervals_cost_and_verdict(made_up):
@@ -192,18 +193,36 @@ def test_the_advice_names_every_choice_once(made_up):
     assert "judged by itself, at 95 % confidence" in made_up.advice
 
 
-def test_where_all_at_once_is_too_much_the_largest_effect_stays(made_up):
-    """What is left is a single choice, which was judged by itself."""
+def test_where_all_at_once_is_too_much_they_are_taken_one_after_the_other(made_up):
+    """From the one that may change least; the second is too much for it, the third is not."""
+    good, bad = made_up.choices[0].effects, made_up.choices[1].effects
+    names, changes = "abcd", {name: (f"campaign.{name}=1",) for name in "abcd"}
+    droppable = [Screened(Choice(name, "none", changes[name]), made_up.own, good) for name in names]
+    asked = []
 
     def tried(choice):
-        tried_with.append(choice)
+        asked.append((choice.name, *(name for name in names if changes[name][0] in choice.changes)))
+        return Screened(choice, made_up.own, bad if changes["c"][0] in choice.changes else good)
+
+    attempts = whole._at_once(droppable, tried)
+    assert asked == [
+        ("all that may drop", *"abcd"),
+        ("d and c", *"cd"),
+        ("d and b", *"bd"),
+        ("these and a", *"abd"),
+    ]
+    found = Screening(made_up.scene, made_up.own, droppable, attempts).simplified
+    assert [each.name for each in found.members] == [*"dba"]
+
+
+def test_where_no_two_may_go_at_once_the_one_goes_that_may_change_least(made_up):
+    def tried(choice):
         return Screened(choice, made_up.own, made_up.choices[1].effects)
 
-    tried_with = []
     attempts = whole._at_once(made_up.droppable, tried)
-    assert [each.changes for each in tried_with] == [(*UNCORRELATED.changes, *SOFTER.changes)]
-    left = Screening(made_up.scene, made_up.own, made_up.choices, attempts)
-    assert left.simplified.choice is SOFTER
+    assert len(attempts) == 1, "both at once are all of them"
+    found = Screening(made_up.scene, made_up.own, made_up.choices, attempts)
+    assert found.simplified.members == (UNCORRELATED,)
 
 
 def test_a_row_of_the_csv_is_a_number_of_a_choice(made_up):
@@ -246,7 +265,7 @@ def test_the_simplified_scene_is_the_scene_that_was_run(made_up, tmp_path):
     text = file.read_text()
     assert text.startswith(f"{HEADER} from ma2023: 80 realizations")
     assert "#     field.cross_correlation=0" in text
-    wanted = load_scene(made_up.scene, made_up.simplified.choice.changes)
+    wanted = load_scene(made_up.scene, made_up.simplified.screened.choice.changes)
     assert load_scene(file).digest() == wanted.digest()
     write_simplified(made_up, file)
 
