@@ -21,10 +21,10 @@ MARKERS = "osD^v<>pP*"
 WIDE, ROW, OVERHEAD = 8.2, 0.42, 1.3
 """Inches that the chart is wide, and that a choice and the rest of it take from top to bottom."""
 
-LEFT, RIGHT = 0.33, 0.76
+LEFT, RIGHT = 0.31, 0.71
 """Shares of the width between which the panels are, with names and verdicts beside them."""
 
-NAME = 34
+NAME = 32
 """Characters of a line of a name."""
 
 SPREAD = 0.56
@@ -107,7 +107,7 @@ def _name(panels: Sequence[Axes], rows: Sequence[Screened], found: Screening) ->
     for axes in panels:
         axes.tick_params(axis="y", length=0)
     for place, each in enumerate(rows):
-        told = f"cost × {found.cost(each):.2g}{', ' * bool(each.reason)}{each.reason}"
+        told = ", ".join(filter(None, [f"cost × {found.cost(each):.2g}", each.reason]))
         _write(last, place, 4.0, str(each.verdict), COLOURS[each.verdict], fontsize=8, weight="bold")
         _write(last, place, -5.0, told, BLACK, fontsize=6.5)
 

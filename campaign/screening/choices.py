@@ -37,7 +37,7 @@ class Choice(NamedTuple):
     name
         What the scene models.
     instead
-        What would take its place.
+        What would take its place; "" for several at once.
     changes
         What that changes in the scene.
     redraws
@@ -55,6 +55,11 @@ class Choice(NamedTuple):
     redraws: bool = False
     simplifies: bool = True
     why_not: str = ""
+
+    @property
+    def exchange(self) -> str:
+        """What is modelled, and what would take its place."""
+        return f"{self.name} -> {self.instead}" if self.instead else self.name
 
 
 def choices_of(scene: Scene) -> list[Choice]:

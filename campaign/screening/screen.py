@@ -89,7 +89,7 @@ def _at_once(droppable: Sequence[Screened], tried: Callable[[Choice], Screened])
 
     def combined(name: str, members: Sequence[Choice]) -> Combination:
         changes, redraws = together([each.changes for each in members]), any(each.redraws for each in members)
-        return Combination(tuple(members), tried(Choice(name, "at once", changes, redraws)))
+        return Combination(tuple(members), tried(Choice(name, "", changes, redraws)))
 
     *rest, first = [each.choice for each in droppable]
     attempts = [combined("all that may drop", [*rest, first])]

@@ -63,7 +63,7 @@ class Screened:
     @property
     def name(self) -> str:
         """What is modelled, and what would take its place."""
-        return f"{self.choice.name} -> {self.choice.instead}"
+        return self.choice.exchange
 
     @property
     def remark(self) -> str:
@@ -160,11 +160,11 @@ class Screening:
         found = self.simplified
         if found is None:
             return "No simpler scene was found to be within the tolerances."
-        mean, left = found.screened.effects[0].difference.interval, 100 * self.cost(found.screened)
-        changed = "; ".join(f"{each.name} -> {each.instead}" for each in found.members)
+        mean, left = found.screened.effects[0], 100 * self.cost(found.screened)
+        changed = "; ".join(each.exchange for each in found.members)
         return (
-            f"The simplified scene ({changed}) changes the mean run-out by {mean.estimate:+.2f} m "
-            f"({mean.lower:+.2f} to {mean.upper:+.2f} m), and a realization takes {left:.2g} % of the core time."
+            f"The simplified scene ({changed}) changes the mean run-out by {mean.told} m, and a "
+            f"realization takes {left:.2g} % of the core time."
         )
 
     @property

@@ -1,6 +1,7 @@
 """A simplified scene as a file: without what may be dropped, and with what that rests on."""
 
 from pathlib import Path
+from textwrap import fill
 
 from campaign.errors import RefusalError
 from campaign.files import write_atomically
@@ -10,6 +11,9 @@ from campaign.screening.screening import Screening
 from campaign.terminal import counted, say
 
 HEADER = "# Simplified by campaign screen"
+
+WIDTH = 110
+"""Characters of a line of the header."""
 
 OF_THE_STUDY = frozenset({"campaign.realizations"})
 """Keys that the study sets for itself."""
@@ -57,9 +61,9 @@ def simplified_scene(found: Screening) -> str | None:
         return None
     changes = simplified.screened.choice.changes
     n = counted(len(found.own.runouts), "realization")
+    about = f"{HEADER} from {found.scene.name}, with what does not change {n} by more than {found.tolerances}."
     told = [
-        f"{HEADER} from {found.scene.name}: {n} differ by less than {found.tolerances}.",
-        f"# {found.of_all}",
+        fill(f"{about} {found.of_all}", WIDTH, subsequent_indent="# "),
         "# Changed, and judged all at once:",
         *(f"#     {change}" for change in changes),
     ]

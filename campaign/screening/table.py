@@ -42,18 +42,9 @@ def table(found: Screening) -> str:
 
 def _line(each: Screened, found: Screening) -> tuple[str, ...]:
     blank = [""] * (3 + len(found.scene.receptor))
-    numbers = [_number(effect) for effect in each.effects] or blank
+    numbers = [effect.told for effect in each.effects] or blank
     cost = f"{found.cost(each):.2g}" if each.realizations else ""
     return (each.name, *numbers, cost, each.remark)
-
-
-def _number(effect: Effect) -> str:
-    """Write a difference with its interval: in m "+0.12 ± 0.05", in points "+3 (-2 to +9)"."""
-    interval = effect.difference.interval
-    if effect.unit == "m":
-        return f"{interval.estimate:+.2f} ± {interval.half_width:.2f}"
-    estimate, lower, upper = (100 * value for value in interval[:3])
-    return f"{estimate:+.0f} ({lower:+.0f} to {upper:+.0f})"
 
 
 def as_csv(found: Screening) -> str:

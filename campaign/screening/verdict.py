@@ -56,8 +56,22 @@ class Effect(NamedTuple):
         """The largest size that its interval leaves possible, in tolerances."""
         return max(map(self._in_tolerances, self.difference.interval[1:3]))
 
+    @property
+    def told(self) -> str:
+        """The difference with its interval: in m "+0.12 ± 0.05", in points "+3 (-2 to +9)"."""
+        interval = self.difference.interval
+        if self.unit == "m":
+            return f"{_rounded(interval.estimate, 2):+.2f} ± {interval.half_width:.2f}"
+        estimate, lower, upper = (_rounded(100 * value, 0) for value in interval[:3])
+        return f"{estimate:+.0f} ({lower:+.0f} to {upper:+.0f})"
+
     def _in_tolerances(self, difference: float) -> float:
         return abs(difference) / self.tolerance if self.tolerance else math.inf if difference else 0.0
+
+
+def _rounded(value: float, digits: int) -> float:
+    """Round, to a zero without a minus."""
+    return round(value, digits) + 0.0
 
 
 def judge(intervals: Sequence[tuple[Interval, float]]) -> Verdict:
