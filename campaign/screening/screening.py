@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
+import numpy as np
+
 from campaign.scene import Scene
 from campaign.screening.choices import Choice
 from campaign.screening.effects import POINTS, Realizations, wanted_accuracy
@@ -152,7 +154,7 @@ class Screening:
     def advice(self) -> str:
         """What to keep and what to drop, in sentences."""
         told = [_sentence(verdict, self.ranked) for verdict in Verdict]
-        return " ".join(filter(None, [*told, self.of_all, self._of_pairs]))
+        return " ".join(filter(None, [*told, self.of_all, self._of_pairs, self._of_walls]))
 
     @property
     def of_all(self) -> str:
@@ -176,6 +178,16 @@ class Screening:
             else ""
         )
         return f"Each choice is judged by itself, at {100 * self.scene.campaign.confidence:g} % confidence.{several}"
+
+    @property
+    def _of_walls(self) -> str:
+        share = 100 * float(np.mean(self.own.is_spoiled))
+        if not share:
+            return ""
+        return (
+            f"{share:.0f} % of the scene's own realizations fail or reach a wall of the model: what these do is not "
+            "compared, or only as far as the wall lets them."
+        )
 
 
 def _sentence(verdict: Verdict, ranked: Sequence[Screened]) -> str:

@@ -193,6 +193,13 @@ def test_the_advice_names_every_choice_once(made_up):
     assert "judged by itself, at 95 % confidence" in made_up.advice
 
 
+def test_walls_in_the_way_of_the_scene_itself_are_said(made_up):
+    own = made_up.own._replace(is_spoiled=np.arange(80) < 20)
+    found = Screening(made_up.scene, own, made_up.choices)
+    assert "25 % of the scene's own realizations fail or reach a wall of the model" in found.advice
+    assert "wall" not in made_up.advice
+
+
 def test_where_all_at_once_is_too_much_they_are_taken_one_after_the_other(made_up):
     """From the one that may change least; the second is too much for it, the third is not."""
     good, bad = made_up.choices[0].effects, made_up.choices[1].effects
