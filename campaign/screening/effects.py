@@ -92,7 +92,8 @@ def effects_of(scene: Scene, own: Realizations, other: Realizations) -> list[Eff
     """Return what a choice changes in each number of the answer, from pairs that both have a run-out.
 
     Intervals are those of pairs, Student's t, the jackknife's and Tango's. They hold whatever pairs share; where that
-    is nothing they are as wide as those of independent samples.
+    is nothing they are as wide as those of independent samples. A slide that was cut short counts as far as it came, as
+    in a campaign's own numbers: compared is what campaigns would tell.
     """
     both, metres, confidence = own.counts & other.counts, wanted_accuracy(scene, own), scene.campaign.confidence
     before, after = own.runouts[both], other.runouts[both]
