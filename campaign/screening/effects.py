@@ -45,7 +45,8 @@ class Realizations(NamedTuple):
     reaches : bool array (receptor, n)
         Whether the front reached it.
     seconds : float
-        core time of one in s, from the time steps that it took: as a clock shows it, but for other work on the machine.
+        core time of the time steps of one in s, as estimated from their number: other work on the machine has no part
+        in it, nor has the random field, whose share is large in coarse cells.
     """
 
     runouts: Sample

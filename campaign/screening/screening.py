@@ -142,7 +142,7 @@ class Screening:
         return [*self.ranked, *(each.screened for each in self.together)]
 
     def cost(self, each: Screened) -> float:
-        """Return the core time without a choice, relative to that of the scene; NaN where nothing was run."""
+        """Return the particle-steps without a choice, relative to those of the scene; NaN where nothing was run."""
         return math.nan if each.realizations is None else each.realizations.seconds / self.own.seconds
 
     @property
@@ -166,7 +166,7 @@ class Screening:
         changed = "; ".join(each.exchange for each in found.members)
         return (
             f"The simplified scene ({changed}) changes the mean run-out by {mean.told} m, and a "
-            f"realization takes {left:.2g} % of the core time."
+            f"realization takes {left:.2g} % of the particle-steps."
         )
 
     @property

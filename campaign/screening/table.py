@@ -78,7 +78,7 @@ def as_dataset(found: Screening) -> xr.Dataset:
             "variant",
             [each.seconds if each else math.nan for each in everything],
             "s",
-            "core time of a realization, from the time steps that it took",
+            "core time of the time steps of a realization, estimated from their number",
         ),
         "verdict": _texts("choice", [str(each.verdict) for each in rows], "what to do with the choice"),
         "remark": _texts("choice", [each.remark for each in rows], "verdict, and what it lacks"),

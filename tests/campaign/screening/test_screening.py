@@ -189,7 +189,7 @@ def test_the_advice_names_every_choice_once(made_up):
     assert "Keep: cells of 2 m." in made_up.advice
     assert "May drop: cross-correlation and modulus 100 MPa." in made_up.advice
     assert 'Not known yet: gravity "release" and crest of 20 m.' in made_up.advice
-    assert "by +0.25 ± 0.22 m, and a realization takes 45 % of the core time" in made_up.advice
+    assert "by +0.25 ± 0.22 m, and a realization takes 45 % of the particle-steps" in made_up.advice
     assert "judged by itself, at 95 % confidence" in made_up.advice
 
 
