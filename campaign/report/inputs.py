@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from campaign.fields.properties import BY_NAME, value_of
-from campaign.record import Status
+from campaign.record import FINAL_RUNOUT, Status
 from campaign.results.results import Results
 from campaign.results.sensitivity import effects_of, map_of, ranking_of
 from campaign.scene.inputs import BY_KEY, MORE, raised, shown
@@ -82,8 +82,25 @@ def _effect_row(results: Results, key: str, effect: Interval) -> EffectRow:
     changed, scene = BY_KEY[key], results.scene
     value, cov = value_of(scene, key) or 0.0, value_of(scene, changed.cov_key) if changed.cov_key else None
     values = f"{shown(raised(scene, changed), changed)} instead of {shown(value, changed)}"
-    deviation = f"{_changed(_times(effect, cov / MORE))} for {100 * cov:g} %" if cov and effect.n else ""
+    is_gradual = not stood(results).get(key)  # where slopes stand with more of it, the effect is not in proportion
+    deviation = f"{_changed(_times(effect, cov / MORE))} for {100 * cov:g} %" if cov and effect.n and is_gradual else ""
     return EffectRow(changed.name, values, _changed(effect), str(effect.n), deviation)
+
+
+def stood(results: Results) -> dict[str, int]:
+    """Return how many of the slides that were computed again no longer slid with more of each input."""
+    found = effects_of(results)
+    if found is None:
+        return {}
+    runouts = results.data[FINAL_RUNOUT[results.scene.slide.front]].values[[*found.realizations]]
+    has_lost_all = np.isclose(found.differences, -runouts, rtol=0.0, atol=1e-9)
+    return dict(zip(found.keys, np.count_nonzero(has_lost_all, axis=1).tolist(), strict=True))
+
+
+def _no_longer_slide(results: Results, slides: int) -> str:
+    """Say with more of which inputs slopes stand."""
+    told = [f"{count} with {TENTH} {BY_KEY[key].name}" for key, count in stood(results).items() if count]
+    return f" Of {counted(slides, 'slide')} no longer slide at all: {listing(told)}." if told else ""
 
 
 def _times(effect: Interval, factor: float) -> Interval:
@@ -103,17 +120,17 @@ def _largest(results: Results) -> str:
     again = f"{counted(slides, 'slide')} {'was' if slides == 1 else 'were'} computed again for each{unhindered}."
     if not found.clear():
         return (
-            f"{of_all} none has an effect on the run-out of a slide that can be told from none: {again} A larger "
-            "campaign.sensitivity_pairs may tell more."
+            f"{of_all} none has an effect on the run-out of a slide that can be told from none: {again}"
+            f"{_no_longer_slide(results, slides)} A larger campaign.sensitivity_pairs may tell more."
         )
     (key, effect), *others = [*found.clear().items()][:NAMED]
     then = " and ".join(f"{BY_KEY[other].name}, {_changed(each)}" for other, each in others)
     next_come = f"; next {'comes' if len(others) == 1 else 'come'} {then}" if others else ""
-    unclear = [each for each in known if each not in found.clear()]
+    unclear = [each for each in known if each not in found.clear() and not stood(results)[each]]
     most = "most" if not unclear else "most of those whose effect can be told from none"
     return (
         f"{of_all} {BY_KEY[key].name} changes the run-out of a slide {most}, by {_changed(effect)}{next_come}."
-        f"{_unclear(unclear)} {again[0].upper()}{again[1:]}"
+        f"{_no_longer_slide(results, slides)}{_unclear(unclear)} {again[0].upper()}{again[1:]}"
     )
 
 

@@ -140,7 +140,7 @@ Profile = Annotated[
     tuple[Point, ...],
     Field(strict=False),
     must("have two points or more", lambda points: len(points) >= 2),
-    must("start at x = 0", lambda points: points[0][0] == 0.0),
+    must("start at x = 0: take its first x off all x, of toe and receptors too", lambda points: points[0][0] == 0.0),
     AfterValidator(_goes_forward),
     must("stay above the base, which is at elevation 0", lambda points: min(y for _, y in points) >= 0.0),
     must("have a width; its last x must be greater than 0", lambda points: points[-1][0] > 0.0),

@@ -1,6 +1,9 @@
 """What can be run but hardly be meant, or will not give the answer that is asked for: warnings before a campaign."""
 
-from math import ceil
+from math import ceil, inf
+
+import numpy as np
+from numpy.typing import NDArray
 
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint, found
@@ -14,6 +17,7 @@ from campaign.scene.sections import Campaign
 from campaign.scene.softening import is_brittle
 from campaign.scene.toe import misplaced_toe
 from campaign.terminal import duration, rounded_down, rounded_up
+from solver.faces import descent, steepest_face
 from solver.surface import Surface
 
 ABSURD_FACTOR = 5.0
@@ -46,6 +50,12 @@ FEWEST_PAIRS = 4
 """With half the cell, of which Student's t makes a 95 % interval of 1.6 standard deviations to either side; of 3 it is
 2.5 and of 2 it is 9."""
 
+MIRRORED = 1.5
+"""Descent to the left over that to the right from which on a section may have been drawn the other way round."""
+
+DEEP = 4.0
+"""Depth of the ground below the slope, in heights of the slope, beyond which it can hardly be meant."""
+
 MANY_HOURS = 1e5
 """Core-hours beyond which a campaign is more likely a slip of the pen than a plan."""
 
@@ -58,6 +68,8 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
     return found(
         (
             far_from_failure(look),
+            mirrored(scene, look),
+            deep_ground(scene, look),
             coarse_cells(scene, look),
             toe,
             *(front(scene, look) for front in fronts),
@@ -91,6 +103,38 @@ def far_from_failure(look: FirstLook) -> Complaint | None:
         "soil.cohesion.mean",
         f"the factor of safety is then {look.peak.factor:.3g}, far above 1, and no realization will slide; check the "
         "unit of the strength and the height of the slope",
+    )
+
+
+def mirrored(scene: Scene, look: FirstLook) -> Complaint | None:
+    """Warn of a section whose slope falls to the left, where no slide goes."""
+    x, y = look.surface.x, look.surface.y
+    right, left = descent(y), descent(y[::-1])
+    if left < MIRRORED * right or _steepness(-x[::-1], y[::-1]) < _steepness(x, y):
+        return None
+    return Complaint(
+        "geometry.surface",
+        f"the ground falls by {left:.3g} m towards the left and by {right:.3g} m towards the right, where slides go; "
+        "if the higher slope is meant, mirror the section",
+    )
+
+
+def _steepness(x: NDArray[np.float64], y: NDArray[np.float64]) -> float:
+    """Return drop over run of the steepest face, infinite for a wall."""
+    head, foot = steepest_face(x, y)
+    return (y[head] - y[foot]) / (x[foot] - x[head]) if x[foot] > x[head] else inf
+
+
+def deep_ground(scene: Scene, look: FirstLook) -> Complaint | None:
+    """Warn of ground that goes far below the slope: elevations above the sea instead of those above the base."""
+    depth, height = float(np.min(look.surface.y)), descent(look.surface.y)
+    if depth <= DEEP * height:
+        return None
+    key = "geometry.slope.foundation" if scene.geometry.slope is not None else "geometry.surface"
+    return Complaint(
+        key,
+        f"the ground goes {depth:.4g} m below the foot of a slope of {height:.3g} m, and what lies deeper than one "
+        "height has no part in a slide but takes its time; elevations count from the fixed base, y = 0",
     )
 
 

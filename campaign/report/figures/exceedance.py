@@ -18,6 +18,9 @@ BEYOND = 1000.0
 STEPS = 40
 """Strips that tell their value on hover."""
 
+FRONTS = {"mass": "front of the mass", "tip": "front-most ground"}
+"""What the run-out of a slide is measured to."""
+
 
 def exceedance(results: Results, curve: Curve) -> Illustration:
     """Draw the probability of a run-out beyond a distance, whether or not the slope slides."""
@@ -34,8 +37,8 @@ def exceedance(results: Results, curve: Curve) -> Illustration:
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=3)
     caption = (
         f"Probability of a run-out beyond a distance, counted in {counted(results.outcomes.usable, 'realization')} "
-        f"with {n} slides, with its interval; without a slide the run-out is zero. Nothing was seen beyond "
-        f"{longest:.2f} m; {_left_open(results, curve)}."
+        f"with {n} slides, with its interval; without a slide the run-out is zero. No "
+        f"{FRONTS[results.scene.slide.front]} was seen beyond {longest:.2f} m; {_left_open(results, curve)}."
     )
     alt = f"Falling curve of the probability from {chance(curve.estimate[0])} to zero at {longest:.2f} m."
     return Illustration(figure, caption, alt)

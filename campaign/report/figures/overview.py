@@ -101,10 +101,12 @@ def _caption(results: Results) -> str:
     slides = results.outcomes.slides
     if not slides:
         return "The slope, which did not slide in any realization, with its critical circle and the places asked about."
+    cut_short = results.outcomes.cut_short
+    ended = f", {cut_short:,} of them cut short before they did" if cut_short else ""
     return (
         f"Upper part: the probability, with its {100 * results.confidence:g} % interval by sampling, that a slide gets "
-        f"as far from the toe; every tick is where one of {counted(slides, 'slide')} stopped. Lower part: the ground "
-        f"before (dashed) and after the slides. Bars in the ground: the intervals of where half and 95 % "
+        f"as far from the toe; every tick is where one of {counted(slides, 'slide')} stopped{ended}. Lower part: "
+        f"the ground before (dashed) and after the slides. Bars in the ground: the intervals of where half and 95 % "
         f"stop{_mesh(results)}."
     )
 

@@ -67,6 +67,24 @@ def test_only_effects_that_can_be_told_are_ranked_and_the_others_named(results):
     assert " have effects lost in the scatter. 4 slides were computed again for each." in told
 
 
+def test_slopes_that_stand_with_more_of_an_input_are_told_and_not_extrapolated(results):
+    """With more friction all four slopes stand, with more cohesion three of four: no derivative follows from that."""
+    keys = results.data["input"].values.tolist()
+    front = results.data["final_runout_mass"].values[[*effects_of(results).realizations]]
+    rows = results.data["input_difference"].values.copy()
+    friction, cohesion = keys.index("soil.friction_angle.mean"), keys.index("soil.cohesion.mean")
+    rows[friction], rows[cohesion] = -front, [*-front[:3], 0.8]
+    data = results.data.assign(input_difference=(results.data["input_difference"].dims, rows))
+    standing = Results(data, results.scene)
+    told = sentences(standing)[0]
+    assert "no longer slide at all: " in told
+    assert "4 with 10 % more mean peak friction angle" in told
+    assert "3 with 10 % more mean peak cohesion" in told
+    assert "ean peak cohesion has an effect lost" not in told
+    per_deviation = {row.name: row.per_deviation for row in effect_rows(standing)}
+    assert per_deviation["mean peak friction angle"] == per_deviation["mean peak cohesion"] == ""
+
+
 def test_rows_are_in_the_order_of_effect(results):
     rows = effect_rows(results)
     assert rows[0].name == "softening rate"

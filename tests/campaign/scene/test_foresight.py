@@ -17,6 +17,8 @@ BENCHED = 'geometry={surface=[["0 m","25 m"],["36 m","24 m"],["42 m","19 m"],["4
 BENCHED += '["57 m","12.6 m"],["64 m","7 m"],["125 m","5 m"]]}'
 UPPER = 'geometry={surface=[["0 m","30 m"],["20 m","30 m"],["30 m","16 m"],["50 m","16 m"],["62 m","10 m"],'
 UPPER += '["99 m","10 m"]]}'
+MIRRORED = 'geometry={surface=[["0 m","10 m"],["20 m","4 m"],["40 m","4 m"],["55 m","19 m"],["75 m","19 m"]]}'
+ABOVE_SEA = 'geometry={surface=[["0 m","319 m"],["20 m","319 m"],["35 m","304 m"],["75 m","304 m"]]}'
 
 
 def warned(*overrides, source="ma2023"):
@@ -58,6 +60,8 @@ def test_the_built_in_scenes_are_sound(source):
         (["soil.unit_weight=20 N/m^3"], 'is "20 N/m^3", but soils have 5 to 40 kN/m^3; check the number and the unit.'),
         (["soil.young_modulus=1 Pa"], "but soils have 0.1 MPa (very soft) to 100 GPa"),
         (["soil.cohesion.cov=10.0"], "but soils have 0.1 to 0.6"),
+        ([MIRRORED], "falls by 15 m towards the left and by 6 m towards the right, where slides go; if"),
+        ([ABOVE_SEA], "the ground goes 304 m below the foot of a slope of 15 m, and what lies deeper than one height"),
         (["soil.softening.rate=1e14"], "but soils have about 0.1 to 10"),
     ],
 )  # fmt: skip

@@ -28,7 +28,10 @@ def test_a_slope_or_a_surface_is_needed() -> None:
     [
         ([], "have two points or more"),
         ([["0 m", "19 m"]], "have two points or more"),
-        ([["1 m", "19 m"], ["20 m", "4 m"]], "start at x = 0"),
+        (
+            [["1 m", "19 m"], ["20 m", "4 m"]],
+            "start at x = 0: take its first x off all x, of toe and",
+        ),
         ([["0 m", "19 m"], ["20 m", "4 m"], ["10 m", "4 m"]], "go from left to right, and point 3, x = 10 m, lies"),
         ([["0 m", "19 m"], ["20 m", "-1 m"]], "stay above the base"),
         ([["0 m", "4 m"], ["20 m", "19 m"]], "descend to the right somewhere"),
