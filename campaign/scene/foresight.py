@@ -3,6 +3,7 @@
 from math import ceil, inf
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from campaign.scene import Scene
@@ -56,6 +57,9 @@ MIRRORED = 1.5
 DEEP = 4.0
 """Depth of the ground below the slope, in heights of the slope, beyond which it can hardly be meant."""
 
+SAMPLES = 16
+"""Places in a cell at which the surface is looked at."""
+
 MANY_HOURS = 1e5
 """Core-hours beyond which a campaign is more likely a slip of the pen than a plan."""
 
@@ -70,6 +74,7 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
             far_from_failure(look),
             mirrored(scene, look),
             deep_ground(scene, look),
+            unseen_feature(scene, look),
             coarse_cells(scene, look),
             toe,
             *(front(scene, look) for front in fronts),
@@ -136,6 +141,34 @@ def deep_ground(scene: Scene, look: FirstLook) -> Complaint | None:
         f"the ground goes {depth:.4g} m below the foot of a slope of {height:.3g} m, and what lies deeper than one "
         "height has no part in a slide but takes its time; elevations count from the fixed base, y = 0",
     )
+
+
+def unseen_feature(scene: Scene, look: FirstLook) -> Complaint | None:
+    """Warn of a wall or a slot that is narrower than a cell and higher than one: the mesh has particles beside it only.
+
+    Ground that is lost where a window of one cell passes below it, or filled where that passes above (opening and
+    closing of mathematical morphology, by which slopes and corners stay as they are).
+    """
+    cell, surface = scene.numerics.cell, look.surface
+    x = np.arange(0.0, surface.width, cell / SAMPLES)
+    y = np.asarray(surface.height_at(x))
+    lost = np.maximum(y - _passed_below(y), -y - _passed_below(-y))
+    worst = int(np.argmax(lost))
+    if lost[worst] <= cell:
+        return None
+    return Complaint(
+        "geometry.surface",
+        f"around x = {x[worst]:.3g} m it has a wall or a slot {lost[worst]:.2g} m high that is narrower than a cell of "
+        f"{cell:g} m, of which the mesh sees little or nothing; draw it wider, or use smaller cells",
+    )
+
+
+def _passed_below(y: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how high a window of one cell comes below the surface at each place."""
+    beside = SAMPLES // 2
+    lowest = sliding_window_view(np.pad(y, beside, mode="edge"), 2 * beside + 1).min(axis=1)
+    highest: NDArray[np.float64] = sliding_window_view(np.pad(lowest, beside, mode="edge"), 2 * beside + 1).max(axis=1)
+    return highest
 
 
 def short_run(scene: Scene, look: FirstLook) -> Complaint | None:

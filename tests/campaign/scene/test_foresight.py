@@ -18,6 +18,12 @@ BENCHED += '["57 m","12.6 m"],["64 m","7 m"],["125 m","5 m"]]}'
 UPPER = 'geometry={surface=[["0 m","30 m"],["20 m","30 m"],["30 m","16 m"],["50 m","16 m"],["62 m","10 m"],'
 UPPER += '["99 m","10 m"]]}'
 MIRRORED = 'geometry={surface=[["0 m","10 m"],["20 m","4 m"],["40 m","4 m"],["55 m","19 m"],["75 m","19 m"]]}'
+WALL = (
+    'geometry={surface=[["0 m","19 m"],["20 m","19 m"],["35 m","4 m"],["50 m","4 m"],["50 m","7 m"],["50.5 m","7 m"],'
+)
+WALL += '["50.5 m","4 m"],["75 m","4 m"]]}'
+SLOT = 'geometry={surface=[["0 m","19 m"],["10 m","19 m"],["10 m","16.5 m"],["10.6 m","16.5 m"],["10.6 m","19 m"],'
+SLOT += '["20 m","19 m"],["35 m","4 m"],["75 m","4 m"]]}'
 ABOVE_SEA = 'geometry={surface=[["0 m","319 m"],["20 m","319 m"],["35 m","304 m"],["75 m","304 m"]]}'
 
 
@@ -62,12 +68,20 @@ def test_the_built_in_scenes_are_sound(source):
         (["soil.cohesion.cov=10.0"], "but soils have 0.1 to 0.6"),
         ([MIRRORED], "falls by 15 m towards the left and by 6 m towards the right, where slides go; if"),
         ([ABOVE_SEA], "the ground goes 304 m below the foot of a slope of 15 m, and what lies deeper than one height"),
+        ([WALL], "around x = 50 m it has a wall or a slot 3 m high that is narrower than a cell of 1 m"),
+        ([SLOT], "it has a wall or a slot 2.5 m high that is narrower than a cell of 1 m"),
         (["soil.softening.rate=1e14"], "but soils have about 0.1 to 10"),
     ],
 )  # fmt: skip
 def test_what_can_hardly_be_meant_is_said_with_its_remedy(overrides, sentence):
     found = warned(*overrides)
     assert any(sentence in text for text in found), found
+
+
+def test_steep_faces_benches_and_ditches_of_a_cell_are_seen():
+    points = [(0, 19), (20, 19), (20, 16), (22, 16), (30, 5), (31, 5), (32, 3), (33, 3), (34, 5), (75, 5)]
+    ground = f"geometry={{surface={[[f'{x} m', f'{y} m'] for x, y in points]}}}"
+    assert not any("wall or a slot" in text for text in warned(ground))
 
 
 def test_a_slope_that_cannot_slide_is_not_asked_for_a_longer_run():
