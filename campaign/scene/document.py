@@ -209,6 +209,9 @@ def _apply(override: str, tables: dict[str, Any]) -> str | None:
         return f"--set {_short('.'.join(path))}: {TOO_DEEP}."
     for depth, section in enumerate(sections, start=1):
         tables = tables.setdefault(section, {})
+        if isinstance(tables, list):
+            whole = """, for instance --set 'receptor=[{name="road", x="42 m"}]'""" if section == "receptor" else ""
+            return f"--set {'.'.join(path)}: {'.'.join(path[:depth])} is a list; set all of it{whole}."
         if not isinstance(tables, dict):
             return f"--set {'.'.join(path)}: {'.'.join(path[:depth])} is a value, not a section; set it itself."
     tables.pop(replaced_by(path), None)

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 from scene_complaints import EXAMPLE, SURFACE, complaint, complaints, found_in, line_of
 
+from campaign.errors import SceneError
 from campaign.scene import differences, load_scene, scene_of
 
 ROAD = '\n[[receptor]]\nname = "road"\nx = "42 m"\n'
@@ -15,6 +16,14 @@ def with_receptors(directory: Path, text: str) -> Path:
     path = directory / "slope.toml"
     path.write_text(EXAMPLE.text + text, "utf-8")
     return path
+
+
+def test_receptors_are_set_all_at_once(tmp_path: Path) -> None:
+    scene = with_receptors(tmp_path, ROAD)
+    with pytest.raises(SceneError, match=r"receptor is a list; set all of it, for instance --set 'receptor=\[\{name"):
+        load_scene(scene, ['receptor.0.x="43 m"'])
+    (road,) = load_scene(scene, ['receptor=[{name="road", x="43 m"}]']).receptor
+    assert road.x == (43.0, 43.0)
 
 
 def test_a_place_is_a_range_without_length(tmp_path: Path) -> None:
