@@ -1,10 +1,6 @@
 """What can be run but hardly be meant, or will not give the answer that is asked for: warnings before a campaign."""
 
-from math import ceil, inf
-
-import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import NDArray
+from math import ceil
 
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint, found
@@ -13,12 +9,12 @@ from campaign.scene.first_look import LONGEST_SLIDE, TYPICAL_SLIDE, FirstLook
 from campaign.scene.front import front_of_particles, front_of_the_slide
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
-from campaign.scene.more_ground import behind_crest
+from campaign.scene.more_ground import behind_crest, key_of
+from campaign.scene.odd_sections import odd_sections
 from campaign.scene.sections import Campaign
 from campaign.scene.softening import is_brittle
 from campaign.scene.toe import misplaced_toe
 from campaign.terminal import duration, rounded_down, rounded_up
-from solver.faces import descent, steepest_face
 from solver.surface import Surface
 
 ABSURD_FACTOR = 5.0
@@ -51,15 +47,6 @@ FEWEST_PAIRS = 4
 """With half the cell, of which Student's t makes a 95 % interval of 1.6 standard deviations to either side; of 3 it is
 2.5 and of 2 it is 9."""
 
-MIRRORED = 1.5
-"""Descent to the left over that to the right from which on a section may have been drawn the other way round."""
-
-DEEP = 4.0
-"""Depth of the ground below the slope, in heights of the slope, beyond which it can hardly be meant."""
-
-SAMPLES = 16
-"""Places in a cell at which the surface is looked at."""
-
 MANY_HOURS = 1e5
 """Core-hours beyond which a campaign is more likely a slip of the pen than a plan."""
 
@@ -72,9 +59,7 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
     return found(
         (
             far_from_failure(look),
-            mirrored(scene, look),
-            deep_ground(scene, look),
-            unseen_feature(scene, look),
+            *odd_sections(scene, look.surface),
             coarse_cells(scene, look),
             toe,
             *(front(scene, look) for front in fronts),
@@ -109,66 +94,6 @@ def far_from_failure(look: FirstLook) -> Complaint | None:
         f"the factor of safety is then {look.peak.factor:.3g}, far above 1, and no realization will slide; check the "
         "unit of the strength and the height of the slope",
     )
-
-
-def mirrored(scene: Scene, look: FirstLook) -> Complaint | None:
-    """Warn of a section whose slope falls to the left, where no slide goes."""
-    x, y = look.surface.x, look.surface.y
-    right, left = descent(y), descent(y[::-1])
-    if left < MIRRORED * right or _steepness(-x[::-1], y[::-1]) < _steepness(x, y):
-        return None
-    return Complaint(
-        "geometry.surface",
-        f"the ground falls by {left:.3g} m towards the left and by {right:.3g} m towards the right, where slides go; "
-        "if the higher slope is meant, mirror the section",
-    )
-
-
-def _steepness(x: NDArray[np.float64], y: NDArray[np.float64]) -> float:
-    """Return drop over run of the steepest face, infinite for a wall."""
-    head, foot = steepest_face(x, y)
-    return (y[head] - y[foot]) / (x[foot] - x[head]) if x[foot] > x[head] else inf
-
-
-def deep_ground(scene: Scene, look: FirstLook) -> Complaint | None:
-    """Warn of ground that goes far below the slope: elevations above the sea instead of those above the base."""
-    depth, height = float(np.min(look.surface.y)), descent(look.surface.y)
-    if depth <= DEEP * height:
-        return None
-    key = "geometry.slope.foundation" if scene.geometry.slope is not None else "geometry.surface"
-    return Complaint(
-        key,
-        f"the ground goes {depth:.4g} m below the foot of a slope of {height:.3g} m, and what lies deeper than one "
-        "height has no part in a slide but takes its time; elevations count from the fixed base, y = 0",
-    )
-
-
-def unseen_feature(scene: Scene, look: FirstLook) -> Complaint | None:
-    """Warn of a wall or a slot that is narrower than a cell and higher than one: the mesh has particles beside it only.
-
-    Ground that is lost where a window of one cell passes below it, or filled where that passes above (opening and
-    closing of mathematical morphology, by which slopes and corners stay as they are).
-    """
-    cell, surface = scene.numerics.cell, look.surface
-    x = np.arange(0.0, surface.width, cell / SAMPLES)
-    y = np.asarray(surface.height_at(x))
-    lost = np.maximum(y - _passed_below(y), -y - _passed_below(-y))
-    worst = int(np.argmax(lost))
-    if lost[worst] <= cell:
-        return None
-    return Complaint(
-        "geometry.surface",
-        f"around x = {x[worst]:.3g} m it has a wall or a slot {lost[worst]:.2g} m high that is narrower than a cell of "
-        f"{cell:g} m, of which the mesh sees little or nothing; draw it wider, or use smaller cells",
-    )
-
-
-def _passed_below(y: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how high a window of one cell comes below the surface at each place."""
-    beside = SAMPLES // 2
-    lowest = sliding_window_view(np.pad(y, beside, mode="edge"), 2 * beside + 1).min(axis=1)
-    highest: NDArray[np.float64] = sliding_window_view(np.pad(lowest, beside, mode="edge"), 2 * beside + 1).max(axis=1)
-    return highest
 
 
 def short_run(scene: Scene, look: FirstLook) -> Complaint | None:
@@ -214,7 +139,7 @@ def short_crest(scene: Scene, look: FirstLook) -> Complaint | None:
     clear = CLEAR_CELLS * scene.numerics.cell
     if not any(circle.entry <= clear for circle in _driven(look)):
         return None
-    key = "geometry.slope.crest" if scene.geometry.slope is not None else "geometry.surface"
+    key = key_of(scene, "crest")
     text = "the critical slip circle begins at the wall on the left, which decides how much ground slides"
     return Complaint(key, f"{text}; {behind_crest(scene)}")
 
@@ -225,7 +150,7 @@ def thin_foundation(scene: Scene, look: FirstLook) -> Complaint | None:
     bounded = [circle for circle in _driven(look) if circle.lowest < min(cell, toe_y - cell)]
     if not bounded:
         return None
-    key = "geometry.slope.foundation" if scene.geometry.slope is not None else "geometry.surface"
+    key = key_of(scene, "foundation")
     return Complaint(
         key,
         f"the critical slip circle goes down to {bounded[0].lowest:.2g} m above the fixed base, which then holds the "

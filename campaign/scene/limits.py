@@ -6,6 +6,7 @@ from campaign.scene import Scene
 from campaign.scene.complaints import Complaint, found
 from campaign.scene.cost import dataset_bytes, output_count, particle_count, rank_bytes, record_bytes, time_step
 from campaign.scene.ground_surface import height_above_toe, surface_of
+from campaign.scene.more_ground import key_of
 from campaign.terminal import data_size
 from solver.constants import STANDARD_GRAVITY
 
@@ -36,7 +37,7 @@ def too_many_particles(scene: Scene, memory: float) -> Complaint | None:
     if rank_bytes(scene) <= memory:
         return None
     ground = surface_of(scene.geometry)
-    long = "geometry.slope.plain" if scene.geometry.slope is not None else "geometry.surface"
+    long = key_of(scene, "plain")
     return Complaint(
         long if ground.width > LONG_GROUND * ground.top else "numerics.cell",
         f"the ground of {ground.width:g} m x {ground.top:g} m then has {particle_count(scene):,.3g} particles in cells "

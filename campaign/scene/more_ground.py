@@ -5,6 +5,11 @@ from campaign.scene.scene import Scene
 from campaign.terminal import listing, rounded_up
 
 
+def key_of(scene: Scene, part: str) -> str:
+    """Return the key that says how long or deep a part of the ground is, "crest", "plain" or "foundation"."""
+    return f"geometry.slope.{part}" if scene.geometry.slope is not None else "geometry.surface"
+
+
 def behind_crest(scene: Scene) -> str:
     """Say how to move the wall behind the crest away, and what moves with it: x counts from that wall."""
     surface = surface_of(scene.geometry)
