@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from campaign.accuracy.mesh_limit import OUTERMOST, Runs, Sampled, sampled
+from campaign.accuracy.mesh_limit import OUTERMOST, Runs, without_failures
 from campaign.seeds import Stream, generator
 from campaign.statistics.intervals import Interval, Sample, quantile_interval
 from campaign.statistics.outcomes import FEW
@@ -65,7 +65,7 @@ class Foretold:
     """
 
     def __init__(
-        self, models: Sequence[Sampled], confidence: float, rng: np.random.Generator, cut_short: float = 0.0
+        self, models: Sequence[Runs], confidence: float, rng: np.random.Generator, cut_short: float = 0.0
     ) -> None:
         self._cut_short = cut_short
         columns = [np.where(each.slid > 0.0, each.runout, np.nan) for each in models]
@@ -120,8 +120,7 @@ class Foretold:
         least = plain(self._known[j])
         # The middle of so many plain runs is that of a whole number of them; their interval is laid about the estimate.
         below, above = estimate - (least.estimate - least.lower), estimate + (least.upper - least.estimate)
-        bounds = (below, above) if least.estimate != estimate else (least.lower, least.upper)
-        return Interval(estimate, float(min(lower, bounds[0])), float(max(upper, bounds[1])), self.n)
+        return Interval(estimate, float(min(lower, below)), float(max(upper, above)), self.n)
 
 
 def foretold(runs: Sequence[Runs], confidence: float, seed: int) -> Foretold | None:
@@ -133,7 +132,7 @@ def foretold(runs: Sequence[Runs], confidence: float, seed: int) -> Foretold | N
     """
     runs = [each for k, each in enumerate(runs) if k < 2 or _share_cut_short(each) <= FEW]
     runs = [*runs[:2], *(each for finer, each in pairwise(runs[1:]) if len(each.runout) > len(finer.runout))]
-    models = sampled(runs)
+    models = without_failures(runs)
     slid = [each.slid > 0.0 for each in models]
     pairs = (np.count_nonzero(fine & coarse[: len(fine)]) for fine, coarse in pairwise(slid))
     cut_short = max(map(_share_cut_short, runs))

@@ -111,17 +111,24 @@ class LimitMeans(NamedTuple):
         return MeshLimit(counted, change, counted._replace(lower=max(0.0, lower), upper=upper))
 
 
-def sampled(models: Sequence[Runs]) -> list[Sampled]:
-    """Return what counts of some nested models."""
+def without_failures(models: Sequence[Runs]) -> list[Runs]:
+    """Return some nested models without the realizations that failed in any of them."""
     failed = np.zeros(max(len(runs.runout) for runs in models), dtype=np.bool_)
     for runs in models:
         failed[: len(runs.runout)] |= np.isnan(runs.runout)
-    return [_without(runs, failed[: len(runs.runout)]) for runs in models]
+    return [_left(runs, ~failed[: len(runs.runout)]) for runs in models]
 
 
-def _without(runs: Runs, failed: NDArray[np.bool_]) -> Sampled:
-    runout, slid, field = (values[~failed] for values in (runs.runout, runs.slid, runs.field))
-    return Sampled(runout, slid, controlled(runout, field), controlled(slid, field))
+def _left(runs: Runs, is_kept: NDArray[np.bool_]) -> Runs:
+    return runs._replace(runout=runs.runout[is_kept], slid=runs.slid[is_kept], field=runs.field[is_kept])
+
+
+def sampled(models: Sequence[Runs]) -> list[Sampled]:
+    """Return what counts of some nested models."""
+    return [
+        Sampled(runs.runout, runs.slid, controlled(runs.runout, runs.field), controlled(runs.slid, runs.field))
+        for runs in without_failures(models)
+    ]
 
 
 def limit_means(models: Sequence[Sampled], chain: Sequence[int]) -> LimitMeans | None:
