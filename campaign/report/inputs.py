@@ -1,5 +1,6 @@
 """Which inputs matter, in sentences and rows, for the terminal and the report."""
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ from campaign.results.results import Results
 from campaign.results.sensitivity import effects_of, map_of, ranking_of
 from campaign.scene.inputs import BY_KEY, MORE, raised, shown
 from campaign.statistics import sensitivity
+from campaign.statistics.changed_inputs import InputEffects
 from campaign.statistics.intervals import Interval
 from campaign.statistics.sensitivity import Ranking
 from campaign.statistics.sensitivity_map import SensitivityMap
@@ -65,7 +67,10 @@ def names(results: Results) -> list[str]:
 def effect_rows(results: Results) -> list[EffectRow]:
     """Return a row for each input, that with the largest effect first."""
     found = effects_of(results)
-    return [] if found is None else [_effect_row(results, key, effect) for key, effect in found.ranked().items()]
+    if found is None:
+        return []
+    standing = _stood(results, found)
+    return [_effect_row(results, key, effect, standing[key]) for key, effect in found.ranked().items()]
 
 
 def property_rows(results: Results) -> list[PropertyRow]:
@@ -78,28 +83,25 @@ def property_rows(results: Results) -> list[PropertyRow]:
     return [PropertyRow(name, _signed(alone), _signed(joint), total) for name, alone, joint, total in rows]
 
 
-def _effect_row(results: Results, key: str, effect: Interval) -> EffectRow:
+def _effect_row(results: Results, key: str, effect: Interval, standing: int) -> EffectRow:
     changed, scene = BY_KEY[key], results.scene
     value, cov = value_of(scene, key) or 0.0, value_of(scene, changed.cov_key) if changed.cov_key else None
     values = f"{shown(raised(scene, changed), changed)} instead of {shown(value, changed)}"
-    is_gradual = not stood(results).get(key)  # where slopes stand with more of it, the effect is not in proportion
-    deviation = f"{_changed(_times(effect, cov / MORE))} for {100 * cov:g} %" if cov and effect.n and is_gradual else ""
+    is_in_proportion = cov and effect.n and not standing  # where slopes stand with more of it, the effect is not
+    deviation = f"{_changed(_times(effect, cov / MORE))} for {100 * cov:g} %" if cov and is_in_proportion else ""
     return EffectRow(changed.name, values, _changed(effect), str(effect.n), deviation)
 
 
-def stood(results: Results) -> dict[str, int]:
+def _stood(results: Results, found: InputEffects) -> dict[str, int]:
     """Return how many of the slides that were computed again no longer slid with more of each input."""
-    found = effects_of(results)
-    if found is None:
-        return {}
     runouts = results.data[FINAL_RUNOUT[results.scene.slide.front]].values[[*found.realizations]]
     has_lost_all = np.isclose(found.differences, -runouts, rtol=0.0, atol=1e-9)
     return dict(zip(found.keys, np.count_nonzero(has_lost_all, axis=1).tolist(), strict=True))
 
 
-def _no_longer_slide(results: Results, slides: int) -> str:
+def _no_longer_slide(standing: Mapping[str, int], slides: int) -> str:
     """Say with more of which inputs slopes stand."""
-    told = [f"{count} with {TENTH} {BY_KEY[key].name}" for key, count in stood(results).items() if count]
+    told = [f"{count} with {TENTH} {BY_KEY[key].name}" for key, count in standing.items() if count]
     return f" Of {counted(slides, 'slide')} no longer slide at all: {listing(told)}." if told else ""
 
 
@@ -118,19 +120,20 @@ def _largest(results: Results) -> str:
     of_all = f"Of {counted(len(known), 'input')}, each raised alone by {100 * MORE:g} %,"
     unhindered = f", {whole} or more without a wall or a failure in the way" if whole < slides else ""
     again = f"{counted(slides, 'slide')} {'was' if slides == 1 else 'were'} computed again for each{unhindered}."
+    standing = _stood(results, found)
     if not found.clear():
         return (
             f"{of_all} none has an effect on the run-out of a slide that can be told from none: {again}"
-            f"{_no_longer_slide(results, slides)} A larger campaign.sensitivity_pairs may tell more."
+            f"{_no_longer_slide(standing, slides)} A larger campaign.sensitivity_pairs may tell more."
         )
     (key, effect), *others = [*found.clear().items()][:NAMED]
     then = " and ".join(f"{BY_KEY[other].name}, {_changed(each)}" for other, each in others)
     next_come = f"; next {'comes' if len(others) == 1 else 'come'} {then}" if others else ""
-    unclear = [each for each in known if each not in found.clear() and not stood(results)[each]]
+    unclear = [each for each in known if each not in found.clear() and not standing[each]]
     most = "most" if not unclear else "most of those whose effect can be told from none"
     return (
         f"{of_all} {BY_KEY[key].name} changes the run-out of a slide {most}, by {_changed(effect)}{next_come}."
-        f"{_no_longer_slide(results, slides)}{_unclear(unclear)} {again[0].upper()}{again[1:]}"
+        f"{_no_longer_slide(standing, slides)}{_unclear(unclear)} {again[0].upper()}{again[1:]}"
     )
 
 
