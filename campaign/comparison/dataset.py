@@ -10,7 +10,7 @@ import xarray as xr
 
 from campaign.comparison.measures import Measure
 from campaign.comparison.scenarios import Comparison
-from campaign.results.variables import Variables, variable
+from campaign.results.variables import Variables, texts, variable
 from campaign.statistics.intervals import unknown
 from campaign.statistics.paired import Difference
 from campaign.statistics.receptors import REACHED
@@ -87,19 +87,15 @@ def _reference(measure: Measure) -> Difference:
 
 def _coordinates(given: Comparison, found: Sequence[Measure]) -> Variables:
     coordinates = {
-        "scenario": _names("scenario", given.names, "directory of the campaign"),
+        "scenario": texts("scenario", given.names, "directory of the campaign"),
         "realization": variable("realization", given.ids, "1", "realization", "i4"),
     }
     for dim, (unit, words) in DIMENSIONS.items():
         if places := list(dict.fromkeys(measure.at for measure in found if measure.dim == dim)):
             coordinates[dim] = variable(dim, places, unit, words)
     if given.receptors:
-        coordinates["receptor"] = _names("receptor", given.receptors, "name of the receptor")
+        coordinates["receptor"] = texts("receptor", given.receptors, "name of the receptor")
     return coordinates
-
-
-def _names(dim: str, names: Sequence[str], words: str) -> xr.Variable:
-    return xr.Variable(dim, np.array(names, dtype=object), {"long_name": words})
 
 
 def _attributes(given: Comparison, doubts: Sequence[str]) -> dict[str, str | float]:

@@ -4,14 +4,13 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-import numpy as np
 import xarray as xr
 
 from campaign.accuracy.foretold import Estimate, foretold
 from campaign.accuracy.mesh_limit import MeshLimit
 from campaign.accuracy.pursuit import Pursuit
 from campaign.accuracy.settings import Models
-from campaign.results.variables import Variables, variable
+from campaign.results.variables import Variables, texts, variable
 from campaign.statistics.intervals import Interval
 from campaign.statistics.outcomes import FEW
 from campaign.statistics.receptors import QUANTILES
@@ -73,9 +72,7 @@ def of_pursuit(found: Pursuit, models: Models, receptors: Sequence[float] = ()) 
     mean.attrs |= {"comment": METHOD, "is_reached": int(found.is_reached), "n": found.limit.counted.n}
     change = found.limit.change
     return {
-        "model": xr.Variable(
-            "model", np.array([each.name for each in found.models], dtype=object), {"long_name": "model of the scene"}
-        ),
+        "model": texts("model", [each.name for each in found.models], "model of the scene"),
         "model_cell": variable("model", [each.numerics.cell for each in scenes], "m", "cell of the model"),
         "model_young_modulus": variable(
             "model", [each.soil.young_modulus for each in scenes], "Pa", "Young's modulus of the model"

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from campaign.record import UNHINDERED, USABLE
 from campaign.results.results import Results
 from campaign.results.sensitivity_table import ESTIMATES, OTHERS
-from campaign.results.variables import Variables, variable
+from campaign.results.variables import Variables, texts, variable
 from campaign.statistics import sensitivity, sensitivity_map
 from campaign.statistics.changed_inputs import InputEffects
 from campaign.statistics.intervals import Interval
@@ -104,7 +104,7 @@ def _of_map(found: SensitivityMap) -> Variables:
 
 
 def _of_inputs(found: InputEffects) -> Variables:
-    keys = xr.Variable("input", np.array(found.keys, dtype=object), {"long_name": "key of the input in the scene"})
+    keys = texts("input", found.keys, "key of the input in the scene")
     return (
         {
             "input": keys,

@@ -1,5 +1,6 @@
 """Variables of the dataset after CF: numbers with a unit and a name, and flags with their meanings."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,11 @@ def variable(
 ) -> xr.Variable:
     """Return numbers with their unit and name."""
     return xr.Variable(dims, np.asarray(values, dtype=dtype), {"units": units, "long_name": long_name})
+
+
+def texts(dim: str, values: Sequence[str], long_name: str) -> xr.Variable:
+    """Return texts with their name."""
+    return xr.Variable(dim, np.array(values, dtype=object), {"long_name": long_name})
 
 
 def status_flags(statuses: NDArray[np.int8] | np.int8) -> xr.Variable:

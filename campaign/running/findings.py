@@ -1,6 +1,8 @@
 """What a study leaves in its directory: its table as CSV, its dataset and its chart."""
 
-from collections.abc import Callable
+import csv
+import io
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 import xarray as xr
@@ -8,7 +10,27 @@ import xarray as xr
 from campaign.errors import RefusalError
 from campaign.files import write_atomically
 from campaign.results import dataset
+from campaign.scene import Scene
 from campaign.terminal import say
+
+
+def as_csv(rows: Iterable[Sequence[object]]) -> str:
+    """Return rows as comma-separated values."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
+
+
+def about(scene: Scene, title: str, advice: str) -> dict[str, str | float]:
+    """Return the attributes that every study's dataset has."""
+    return {
+        "Conventions": "CF-1.11",
+        "title": f"{title}: {scene.title}",
+        "advice": advice,
+        "confidence": scene.campaign.confidence,
+        "scene": scene.text,
+        "scene_overrides": "\n".join(scene.overrides),
+    }
 
 
 def leave(stem: Path, table: str, data: xr.Dataset, told: str, draw: Callable[[Path], None]) -> None:

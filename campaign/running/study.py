@@ -8,7 +8,6 @@ kept with the realizations, so that it stays left out.
 import math
 import re
 from collections.abc import Callable, Iterable
-from functools import partial
 from hashlib import sha256
 from itertools import chain
 from pathlib import Path
@@ -58,7 +57,7 @@ class Outcome(NamedTuple):
     why_not
         Why not, "" if they were.
     seconds
-        core time of a realization; the estimate where none was run.
+        Core time of a realization; the estimate where none was run.
     """
 
     changes: Changes
@@ -73,54 +72,24 @@ class Outcome(NamedTuple):
         return named(self.changes)
 
 
-def conduct_study(
-    directory: CampaignDirectory,
-    prepare: Prepare,
-    crew: Crew,
-    stop: StopRequest,
-    study: Callable[[Means], str],
-) -> ExitCode:
-    """Have the crew compute what a study lacks.
+def leading(prepare: Prepare, study: Callable[[CampaignDirectory, Means], str]) -> Lead:
+    """Return what has a crew compute what the study of an opened directory lacks.
 
     Parameters
     ----------
-    directory
-        Of the study, opened.
     prepare
         Computes what realizations share.
-    crew
-        Computes realizations.
-    stop
-        Whether somebody asked for an end.
     study
         Runs variants with these means, writes what it found, and returns what it came to in a sentence.
-
-    Raises
-    ------
-    CampaignError
-        If the study cannot be made.
-    """
-    try:
-        verdict = study(means_of(directory, prepare, crew, stop))
-    except Stopped as stopped:
-        return directory.leave(str(stopped), when="")
-    manifest.end(directory.path, ExitCode.DONE, verdict)
-    return ExitCode.DONE
-
-
-def leading(prepare: Prepare, study: Callable[[CampaignDirectory, Means], str]) -> Lead:
-    """Return what conducts a study in an opened directory.
-
-    Parameters
-    ----------
-    prepare
-        Computes what realizations share.
-    study
-        As of `conduct_study`, with the directory.
     """
 
     def lead(directory: CampaignDirectory, crew: Crew, stop: StopRequest) -> ExitCode:
-        return conduct_study(directory, prepare, crew, stop, partial(study, directory))
+        try:
+            verdict = study(directory, means_of(directory, prepare, crew, stop))
+        except Stopped as stopped:
+            return directory.leave(str(stopped), when="")
+        manifest.end(directory.path, ExitCode.DONE, verdict)
+        return ExitCode.DONE
 
     return lead
 
@@ -135,7 +104,7 @@ class Study:
     realizations
         Number of realizations of each.
     budget
-        core time in s of all realizations together: what is estimated to exceed the rest of it is left out.
+        Core time in s of all realizations together: what is estimated to exceed the rest of it is left out.
     means
         To compute with.
     """
@@ -162,7 +131,7 @@ class Study:
         estimate = self._pace * realization_seconds(variant)
         whole, directory = without_rule(variant, self.realizations), directory_of(self._means.home, changes)
         expected = self.realizations * estimate
-        if not _is_whole(whole, directory) and expected > self._left:
+        if expected > self._left and not _is_whole(whole, directory):
             why = f"left out: about {duration(expected)} of core time, and {duration(max(self._left, 0.0))} left"
             return Outcome(changes, variant, None, why, estimate)
         again = counted(self.realizations, "realization")

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from campaign.record import SLID, Status
 from campaign.running.study import Outcome, directory_of
 from campaign.scene import Scene
-from campaign.scene.constraints import Tolerance, tolerance
 from campaign.scene.cost import particle_count, speed
+from campaign.scene.wanted import wanted_accuracy
 from campaign.screening.verdict import Effect
 from campaign.statistics.intervals import Interval, Sample
 from campaign.statistics.paired import (
@@ -24,9 +24,6 @@ from campaign.statistics.paired import (
 )
 from campaign.statistics.tally import Tally
 from campaign.storage.record_store import RecordStore
-
-NEAR = Tolerance(0.05, is_relative=True)
-"""Change of mean and standard deviation that does not matter, of the mean, where the scene asks for no accuracy."""
 
 POINTS = 0.05
 """Change of a probability that does not matter."""
@@ -45,7 +42,7 @@ class Realizations(NamedTuple):
     reaches : bool array (receptor, n)
         Whether the front reached it.
     seconds : float
-        core time of the time steps of one in s, as estimated from their number: other work on the machine has no part
+        Core time of the time steps of one in s, as estimated from their number: other work on the machine has no part
         in it, nor has the random field, whose share is large in coarse cells.
     """
 
@@ -54,6 +51,11 @@ class Realizations(NamedTuple):
     is_spoiled: NDArray[np.bool_]
     reaches: NDArray[np.bool_]
     seconds: float
+
+    @property
+    def mean(self) -> float:
+        """Mean run-out in m, 0 without a slide."""
+        return float(np.nanmean(self.runouts))
 
     @property
     def counts(self) -> NDArray[np.bool_]:
@@ -83,12 +85,6 @@ def spoiled(own: Realizations, other: Realizations, confidence: float) -> Interv
     return proportion_difference(own.is_spoiled, other.is_spoiled, confidence).interval
 
 
-def wanted_accuracy(scene: Scene, own: Realizations) -> float:
-    """Return the change of mean and standard deviation in m that does not matter."""
-    asked = scene.campaign.accuracy
-    return (tolerance(asked) if asked else NEAR).metres(float(np.nanmean(own.runouts)))
-
-
 def effects_of(scene: Scene, own: Realizations, other: Realizations) -> list[Effect]:
     """Return what a choice changes in each number of the answer, from pairs that both have a run-out.
 
@@ -96,7 +92,7 @@ def effects_of(scene: Scene, own: Realizations, other: Realizations) -> list[Eff
     is nothing they are as wide as those of independent samples. A slide that was cut short counts as far as it came, as
     in a campaign's own numbers: compared is what campaigns would tell.
     """
-    both, metres, confidence = own.counts & other.counts, wanted_accuracy(scene, own), scene.campaign.confidence
+    both, metres, confidence = own.counts & other.counts, wanted_accuracy(scene, own.mean), scene.campaign.confidence
     before, after = own.runouts[both], other.runouts[both]
     mean, std = mean_difference(before, after, confidence), std_difference(before, after, confidence)
     return [

@@ -43,7 +43,7 @@ def screen(scene: Scene, realizations: int, budget: float, means: Means) -> Scre
     realizations
         Number of random fields.
     budget
-        core time in s; what would exceed the rest of it is left out.
+        Core time in s; what would exceed the rest of it is left out.
     means
         To compute with.
 

@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from campaign.scene import Scene
+from campaign.scene.wanted import wanted_accuracy
 from campaign.screening.choices import Choice
-from campaign.screening.effects import POINTS, Realizations, wanted_accuracy
+from campaign.screening.effects import POINTS, Realizations
 from campaign.screening.verdict import Effect, Verdict, deciding_number, verdict_of
 from campaign.statistics.intervals import Interval, unknown
 from campaign.terminal import counted, listing
@@ -116,7 +117,7 @@ class Screening:
     @property
     def metres(self) -> float:
         """Change of mean and standard deviation in m that does not matter."""
-        return wanted_accuracy(self.scene, self.own)
+        return wanted_accuracy(self.scene, self.own.mean)
 
     @property
     def ranked(self) -> list[Screened]:

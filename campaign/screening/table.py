@@ -1,16 +1,15 @@
 """What `campaign screen` leaves: a table on the terminal and as CSV, a dataset, and a chart."""
 
-import csv
-import io
 import math
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
-from campaign.results.variables import variable
-from campaign.running.findings import leave
+from campaign.results.variables import texts, variable
+from campaign.running import findings
 from campaign.screening.effects import Realizations
 from campaign.screening.screening import Screened, Screening
 from campaign.screening.verdict import Effect
@@ -28,7 +27,7 @@ def write_screening(found: Screening, directory: Path) -> None:
         When nothing can be written.
     """
     told = f"{table(found)}\n\n{found.advice}"
-    leave(directory / NAME, as_csv(found), as_dataset(found), told, partial(_draw, found))
+    findings.leave(directory / NAME, as_csv(found), as_dataset(found), told, partial(_draw, found))
 
 
 def table(found: Screening) -> str:
@@ -49,18 +48,18 @@ def _line(each: Screened, found: Screening) -> tuple[str, ...]:
 
 def as_csv(found: Screening) -> str:
     """Return the table as comma-separated values: a row for each choice and number."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["choice", "instead", "number", "unit", "change", "lower", "upper", "tolerance", "cost", "verdict"])
+    rows: list[Sequence[object]] = [
+        ("choice", "instead", "number", "unit", "change", "lower", "upper", "tolerance", "cost", "verdict")
+    ]
     for each in found.rows:
-        about, cost = (each.choice.name, each.choice.instead), found.cost(each)
+        choice, cost = (each.choice.name, each.choice.instead), found.cost(each)
         ending = (cost if math.isfinite(cost) else "", each.remark)
         if not each.effects:
-            writer.writerow([*about, *[""] * 6, *ending])
+            rows.append((*choice, *[""] * 6, *ending))
         for effect in each.effects:
             interval = effect.difference.interval
-            writer.writerow([*about, effect.words, effect.unit, *interval[:3], effect.tolerance, *ending])
-    return text.getvalue()
+            rows.append((*choice, effect.words, effect.unit, *interval[:3], effect.tolerance, *ending))
+    return findings.as_csv(rows)
 
 
 def as_dataset(found: Screening) -> xr.Dataset:
@@ -80,9 +79,9 @@ def as_dataset(found: Screening) -> xr.Dataset:
             "s",
             "core time of the time steps of a realization, estimated from their number",
         ),
-        "verdict": _texts("choice", [str(each.verdict) for each in rows], "what to do with the choice"),
-        "remark": _texts("choice", [each.remark for each in rows], "verdict, and what it lacks"),
-        "changes": _texts("choice", ["\n".join(each.choice.changes) for each in rows], "changes of the scene"),
+        "verdict": texts("choice", [str(each.verdict) for each in rows], "what to do with the choice"),
+        "remark": texts("choice", [each.remark for each in rows], "verdict, and what it lacks"),
+        "changes": texts("choice", ["\n".join(each.choice.changes) for each in rows], "changes of the scene"),
         "same_fields": variable(
             "choice", [not each.choice.redraws for each in rows], "1", "1 where pairs have the same ground", "i1"
         ),
@@ -91,22 +90,14 @@ def as_dataset(found: Screening) -> xr.Dataset:
         variables |= _of_effect(number, effect, rows)
     names = [each.name for each in rows]
     coordinates = {
-        "variant": _texts("variant", ["the scene itself", *names], "the scene, and what takes a choice's place"),
-        "choice": _texts("choice", names, "what is modelled -> what takes its place"),
+        "variant": texts("variant", ["the scene itself", *names], "the scene, and what takes a choice's place"),
+        "choice": texts("choice", names, "what is modelled -> what takes its place"),
         "realization": variable("realization", range(len(found.own.runouts)), "1", "number of the random field", "i4"),
     }
     return xr.Dataset(
         variables,
         coordinates,
-        {
-            "Conventions": "CF-1.11",
-            "title": f"Which modelling choices matter: {found.scene.title}",
-            "advice": found.advice,
-            "tolerances": found.tolerances,
-            "confidence": found.scene.campaign.confidence,
-            "scene": found.scene.text,
-            "scene_overrides": "\n".join(found.scene.overrides),
-        },
+        findings.about(found.scene, "Which modelling choices matter", found.advice) | {"tolerances": found.tolerances},
     )
 
 
@@ -124,10 +115,6 @@ def _of_effect(number: int, effect: Effect, rows: list[Screened]) -> dict[str, x
         ),
         f"{effect.variable}_tolerance": variable((), effect.tolerance, unit, f"what does not matter of the {told}"),
     }
-
-
-def _texts(dim: str, texts: list[str], long_name: str) -> xr.Variable:
-    return xr.Variable(dim, np.array(texts, dtype=object), {"long_name": long_name})
 
 
 def _draw(found: Screening, path: Path) -> None:

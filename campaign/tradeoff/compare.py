@@ -33,7 +33,7 @@ def compare(scene: Scene, realizations: int, budget: float, means: Means) -> Tra
     realizations
         Number of random fields.
     budget
-        core time in s; what would exceed the rest of it is left out; half the cell comes first.
+        Core time in s; what would exceed the rest of it is left out; half the cell comes first.
     means
         To compute with.
 

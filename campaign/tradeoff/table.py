@@ -1,15 +1,15 @@
 """What `campaign tradeoff` leaves: a table on the terminal and as CSV, a dataset, and a chart."""
 
-import csv
-import io
 import math
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
-from campaign.running.findings import leave
+from campaign.results.variables import texts, variable
+from campaign.running import findings
 from campaign.statistics.wording import metres
 from campaign.terminal import aligned, duration
 from campaign.tradeoff.settings import in_short
@@ -47,7 +47,7 @@ def write_tradeoff(found: Tradeoff, directory: Path) -> None:
         When nothing can be written.
     """
     told = f"{table(found)}\n\n{found.advice}{_how(found)}"
-    leave(directory / NAME, as_csv(found), as_dataset(found), told, partial(_draw, found))
+    findings.leave(directory / NAME, as_csv(found), as_dataset(found), told, partial(_draw, found))
 
 
 def in_order(found: Tradeoff) -> list[Trial]:
@@ -104,63 +104,47 @@ def _how(found: Tradeoff) -> str:
 
 def as_csv(found: Tradeoff) -> str:
     """Return the table as comma-separated values."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["setting", *(f"{name}_{about['units']}" for name, about in NUMBERS.items()), "remark"])
+    rows: list[Sequence[object]] = [
+        ("setting", *(f"{name}_{about['units']}" for name, about in NUMBERS.items()), "remark")
+    ]
     for trial in in_order(found):
         numbers = [number if math.isfinite(number) else "" for number in _numbers(trial, found).values()]
-        writer.writerow([trial.name, *numbers, trial.remark or _marks(trial, found)])
-    return text.getvalue()
+        rows.append((trial.name, *numbers, trial.remark or _marks(trial, found)))
+    return findings.as_csv(rows)
 
 
 def as_dataset(found: Tradeoff) -> xr.Dataset:
     """Return every final run-out by setting and realization, and what follows from them."""
     trials = list(found.trials)
-    numbers = {name: ("setting", _column(name, found), about) for name, about in NUMBERS.items()}
-    runout_about = {
-        "units": "m",
-        "long_name": "final run-out of the front that slide.front names; NaN without a slide that nothing hindered",
-    }
+    rows = [_numbers(trial, found) for trial in trials]
     chosen = found.recommended
     return xr.Dataset(
         {
-            "final_runout": (("setting", "realization"), np.stack([trial.runouts for trial in trials]), runout_about),
-            **numbers,
-            "remark": (
-                "setting",
-                np.array([trial.remark for trial in trials], dtype=object),
-                {"long_name": "why there is nothing to compare"},
+            "final_runout": variable(
+                ("setting", "realization"),
+                [trial.runouts for trial in trials],
+                "m",
+                "final run-out of the front that slide.front names; NaN without a slide that nothing hindered",
             ),
+            **{name: variable("setting", [row[name] for row in rows], **about) for name, about in NUMBERS.items()},
+            "remark": texts("setting", [trial.remark for trial in trials], "why there is nothing to compare"),
         },
         {
-            "setting": (
-                "setting",
-                np.array([trial.name for trial in trials], dtype=object),
-                {"long_name": "changes of the scene"},
-            ),
-            "realization": (
+            "setting": texts("setting", [trial.name for trial in trials], "changes of the scene"),
+            "realization": xr.Variable(
                 "realization",
                 np.arange(len(found.reference.runouts)),
                 {"long_name": "number of the random field"},
             ),
         },
-        {
-            "Conventions": "CF-1.11",
-            "title": f"Speed against accuracy: {found.scene.title}",
+        findings.about(found.scene, "Speed against accuracy", found.advice)
+        | {
             "reference": found.reference.name,
             "recommended": chosen.trial.name if chosen else "",
-            "advice": found.advice,
             "sampling_error": found.sampling,
             "mesh_doubt": found.mesh_doubt,
-            "confidence": found.scene.campaign.confidence,
-            "scene": found.scene.text,
-            "scene_overrides": "\n".join(found.scene.overrides),
         },
     )
-
-
-def _column(name: str, found: Tradeoff) -> list[float]:
-    return [_numbers(trial, found)[name] for trial in found.trials]
 
 
 def _numbers(trial: Trial, found: Tradeoff) -> dict[str, float]:

@@ -22,15 +22,11 @@ from campaign.accuracy.nested import FEWEST, nested_mean
 from campaign.record import FAILED, UNHINDERED, Status
 from campaign.running.study import Changes, Outcome, named
 from campaign.scene import Scene
-from campaign.scene.constraints import Tolerance, tolerance
+from campaign.scene.wanted import wanted_accuracy
 from campaign.seeds import BASELINE
 from campaign.statistics.intervals import Interval, Sample, mean_interval, normal_quantile
 from campaign.statistics.repetition import unhindered_runout
 from campaign.terminal import counted, duration
-
-NEAR = Tolerance(0.05, is_relative=True)
-"""Total error of the mean run-out that a setting is recommended for, where the scene asks for none."""
-
 
 WORTH_IT = 0.9
 """Of the core time of a realization: what saves less is not told from the noise of a busy machine."""
@@ -59,7 +55,7 @@ class Trial:
     runouts
         Final run-out of realization 0, 1, ... in m, NaN of all that did not slide or had a wall in the way.
     seconds
-        core time of one of them in s; the estimate where none was run.
+        Core time of one of them in s; the estimate where none was run.
     ends
         How those ended that did not slide or had a wall in the way, and how many of each.
     why_not
@@ -190,8 +186,7 @@ class Tradeoff:
     @property
     def wanted(self) -> float:
         """The total error in m that a setting is recommended for."""
-        asked = self.scene.campaign.accuracy
-        return (tolerance(asked) if asked else NEAR).metres(self.mean)
+        return wanted_accuracy(self.scene, self.mean)
 
     @property
     def sampling(self) -> float:

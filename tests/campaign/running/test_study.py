@@ -12,7 +12,7 @@ from campaign.running.crew import Alone
 from campaign.running.means import means_of
 from campaign.running.side_run import Stopped
 from campaign.running.stop_request import StopRequest
-from campaign.running.study import OWN, Study, conduct_study, directory_of, named
+from campaign.running.study import OWN, Study, directory_of, leading, named
 from campaign.scene.cost import realization_seconds
 from campaign.storage import manifest
 
@@ -99,7 +99,7 @@ def test_who_asks_for_an_end_ends_the_study(study_of, stop):
 
 def test_a_study_says_how_it_ended(directory, stop):
     def lead(study):
-        return conduct_study(directory, prepare, Alone(stop), stop, study)
+        return leading(prepare, lambda _, means: study(means))(directory, Alone(stop), stop)
 
     assert lead(lambda means: "all is known") is ExitCode.DONE
     assert manifest.read(directory.path)["end"]["verdict"] == "all is known"
