@@ -187,7 +187,7 @@ def march_to_rest(
     rest = RestDetector(model.criteria)
     stand = StandDetector(
         model.criteria,
-        model.surface.relief,
+        model.surface.height,
         model.slowest_period,
         float(start.mass.sum()),
         float(times[-1]),

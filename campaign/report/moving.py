@@ -61,7 +61,7 @@ def moving_areas(ground: Ground, shots: list[Snapshot], section: Section) -> Mov
 
 def colour_limits(section: Section) -> Array:
     """Return the displacements in m, beyond that at which ground begins to move, from which on a colour is the next."""
-    return SHARES * section.surface.relief
+    return SHARES * section.surface.height
 
 
 def frame_of(ground: Ground, section: Section, moving: Moving, shot: Snapshot) -> Frame:

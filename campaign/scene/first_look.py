@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from campaign.scene import Scene
-from campaign.scene.ground_surface import height_above_toe, surface_of
+from campaign.scene.ground_surface import surface_of
 from campaign.scene.limit_equilibrium import SlipCircle, critical_circle, factor_on
 from campaign.scene.sections import FrictionAngle
 from campaign.scene.softening import share_left
@@ -35,7 +35,7 @@ class FirstLook(NamedTuple):
     ----------
     surface : Surface
     height : float
-        Of the highest ground upslope of the toe above the toe, in m.
+        Of the slope, from its toe to its crest, in m.
     peak, residual : SlipCircle or None
         The critical circles for the mean peak strength and for the residual one; None where nothing drives a slide or
         nothing resists it, and where the soil does not soften.
@@ -73,15 +73,20 @@ class FirstLook(NamedTuple):
 
 def look_at(scene: Scene) -> FirstLook:
     """Return a first look at the slope of a scene."""
-    surface, soil = surface_of(scene.geometry), scene.soil
-    friction_angle = soil.friction_angle or NO_FRICTION
+    surface = surface_of(scene.geometry)
+    peak, residual = critical_circles(scene, surface)
+    spread = 0.0 if peak is None else _spread(scene, surface, peak)
+    return FirstLook(surface, surface.height, peak, residual, spread, braking_friction(scene, surface, surface.height))
+
+
+def critical_circles(scene: Scene, surface: Surface) -> tuple[SlipCircle | None, SlipCircle | None]:
+    """Return the critical circles of a surface for the mean peak strength and for the residual one of a scene."""
+    soil, friction_angle = scene.soil, scene.soil.friction_angle or NO_FRICTION
     peak = _circle(surface, soil.cohesion.mean, friction_angle.mean, soil.unit_weight)
     residual = None
     if soil.softening.law != "none":
         residual = _circle(surface, soil.cohesion.residual, friction_angle.residual, soil.unit_weight)
-    spread = 0.0 if peak is None else _spread(scene, surface, peak)
-    height = height_above_toe(surface)
-    return FirstLook(surface, height, peak, residual, spread, braking_friction(scene, surface, height))
+    return peak, residual
 
 
 def braking_friction(scene: Scene, surface: Surface, height: float) -> float:

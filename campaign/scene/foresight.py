@@ -5,12 +5,13 @@ from math import ceil
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint, found
 from campaign.scene.cost import core_seconds, output_count, particle_count, realization_seconds, step_count, time_step
-from campaign.scene.first_look import LONGEST_SLIDE, TYPICAL_SLIDE, FirstLook
+from campaign.scene.first_look import LONGEST_SLIDE, TYPICAL_SLIDE, FirstLook, critical_circles
 from campaign.scene.front import front_of_particles, front_of_the_slide
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
 from campaign.scene.more_ground import behind_crest, key_of
 from campaign.scene.odd_sections import odd_sections
+from campaign.scene.outlook import may_slide
 from campaign.scene.sections import Campaign
 from campaign.scene.softening import is_brittle
 from campaign.scene.toe import misplaced_toe
@@ -106,9 +107,9 @@ def short_run(scene: Scene, look: FirstLook) -> Complaint | None:
     ramp = f" after the ramp of {numerics.ramp_time:g} s" if ramp_time else ""
     return Complaint(
         "numerics.end_time",
-        f"half of comparable slides take more than {typical:.2g} s{ramp} to come to rest, and what still moves at the "
-        f'end counts as not settled; use "{rounded_up(longest + ramp_time)} s", which costs nothing where slides rest '
-        "earlier",
+        f"{_should_it_slide(look)}half of comparable slides take more than {typical:.2g} s{ramp} to come to rest, and "
+        f'what still moves at the end counts as not settled; use "{rounded_up(longest + ramp_time)} s", which costs '
+        "nothing where slides rest earlier",
     )
 
 
@@ -120,8 +121,8 @@ def short_ground(scene: Scene, look: FirstLook) -> Complaint | None:
         return None
     needed = CLEARANCE**2 * longest * look.height
     text = (
-        f"slides of {look.height:g} m mostly run out {shortest:g} to {longest:g} times their height, and the wall "
-        f"{length:g} m beyond the toe will hold them back"
+        f"{_should_it_slide(look)}slides of {look.height:.3g} m mostly run out {shortest:g} to {longest:g} times their "
+        f"height, and the wall {length:g} m beyond the toe would hold them back"
     )
     return longer_plain(scene, look.surface, needed, text)
 
@@ -145,17 +146,26 @@ def short_crest(scene: Scene, look: FirstLook) -> Complaint | None:
 
 
 def thin_foundation(scene: Scene, look: FirstLook) -> Complaint | None:
-    """Warn of a slip surface that dips below the toe, down to the fixed base."""
-    cell, toe_y = scene.numerics.cell, look.surface.toe[1]
-    bounded = [circle for circle in _driven(look) if circle.lowest < min(cell, toe_y - cell)]
-    if not bounded:
+    """Warn of a slip surface that goes down to the fixed base, or would if there was ground, and of one along it."""
+    toe_y, key = look.surface.toe[1], key_of(scene, "foundation")
+    remedy = "if there is no rock, deepen the foundation until the factor of safety no longer falls"
+    band = max(scene.numerics.cell, scene.soil.softening.internal_length or 0.0)
+    if not (driven := _driven(look)) or toe_y < scene.numerics.cell:  # else it is a heap on a floor
         return None
-    key = key_of(scene, "foundation")
-    return Complaint(
-        key,
-        f"the critical slip circle goes down to {bounded[0].lowest:.2g} m above the fixed base, which then holds the "
-        "slope; if there is no rock, deepen the foundation until the factor of safety no longer falls",
-    )
+    deeper = look.surface._replace(y=look.surface.y + look.height)
+    lowest = min(circle.lowest - look.height for circle in critical_circles(scene, deeper) if circle is not None)
+    if lowest < min(scene.numerics.cell, toe_y - scene.numerics.cell):
+        down = f"comes down to {lowest:.2g} m above the fixed base"
+        if lowest < 0.0:
+            down = f"would go {-lowest:.2g} m below the fixed base if there was soil"
+        return Complaint(key, f"the critical slip circle {down}, and the base then holds the slope; {remedy}")
+    if toe_y < 2.0 * band and min(circle.lowest for circle in driven) < 2.0 * band:
+        return Complaint(
+            key,
+            f"the critical slip circle comes out at the toe, {toe_y:.2g} m above the fixed base, and a band of "
+            f"{band:g} m may run along that; if there is no rock, deepen the foundation to {rounded_up(2.0 * band)} m",
+        )
+    return None
 
 
 def coarse_cells(scene: Scene, look: FirstLook) -> Complaint | None:
@@ -238,3 +248,8 @@ def _driven(look: FirstLook) -> list[SlipCircle]:
     if look.peak is not None and look.peak.factor >= ABSURD_FACTOR:
         return []
     return [circle for circle in (look.peak, look.residual) if circle is not None]
+
+
+def _should_it_slide(look: FirstLook) -> str:
+    """Say first that no slide is expected, where that is so."""
+    return "" if may_slide(look) else "no slide is expected, but should there be one, "

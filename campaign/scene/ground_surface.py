@@ -29,9 +29,3 @@ def surface_through(points: Sequence[Sequence[float]], toe: float | None = None)
     """
     x, y = np.array(points, dtype=float).T.copy()
     return Surface(x, y, foot_of_slope(x, y) if toe is None else toe)
-
-
-def height_above_toe(surface: Surface) -> float:
-    """Return how far in m the highest ground upslope of the toe lies above the toe."""
-    toe_x, toe_y = surface.toe
-    return float(np.max(surface.y[surface.x <= toe_x])) - toe_y

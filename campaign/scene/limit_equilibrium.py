@@ -5,7 +5,8 @@ towards the toe. Moments about the centre, with no shear between slices, give (B
 
     F = sum [(c b + W tan(phi)) / (cos(alpha) + sin(alpha) tan(phi) / F)] / sum W sin(alpha)
 
-The critical circle is the one with the least ``F``. Circles end on the ground surface and stay above the fixed base.
+The critical circle is the one with the least ``F``. Circles end on the ground surface, stay above the fixed base, and
+fall by a good part of the height of the slope, or the weakest one would be that of a bump on the crest.
 """
 
 from typing import NamedTuple
@@ -23,6 +24,7 @@ COARSE = (28, 28, 10)  # places on the surface where circles begin, where they e
 FINE = 11  # the same three, in the neighbourhood of the best
 REFINEMENTS = 8
 ITERATIONS = 15
+LEAST_FALL = 0.2  # of a circle from end to end, in heights of the slope: on less a bump or a bank fails by itself
 DEPTHS = 200  # places at which the depth of a circle is measured
 
 
@@ -139,12 +141,14 @@ def factors_of_safety(
     width = (exit_ - entry) / SLICES
     x = entry[:, None] + width[:, None] * (np.arange(SLICES) + 0.5)
     sine = (centre_x[:, None] - x) / radius[:, None]
+    falls = surface.height_at(entry) - surface.height_at(exit_)
     with np.errstate(invalid="ignore"):
         cosine = np.sqrt(1.0 - sine**2)
         thickness = surface.height_at(x) - (centre_y[:, None] - radius[:, None] * cosine)
         is_arc = centre_y >= surface.height_at(entry)  # else the arc would overhang
         is_arc &= _lowest(centre_x, centre_y, radius, entry, exit_) >= 0.0
         is_arc &= np.all(thickness >= 0.0, axis=1)
+        is_arc &= falls >= LEAST_FALL * surface.height
     weight = unit_weight * thickness * width[:, None]
     factor[np.flatnonzero(is_possible)[is_arc]] = _bishop(
         weight[is_arc], sine[is_arc], cosine[is_arc], cohesion * width[is_arc, None], np.tan(friction_angle)

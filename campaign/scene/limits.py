@@ -5,7 +5,7 @@ from math import sqrt
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint, found
 from campaign.scene.cost import dataset_bytes, output_count, particle_count, rank_bytes, record_bytes, time_step
-from campaign.scene.ground_surface import height_above_toe, surface_of
+from campaign.scene.ground_surface import surface_of
 from campaign.scene.more_ground import key_of
 from campaign.terminal import data_size
 from solver.constants import STANDARD_GRAVITY
@@ -89,5 +89,5 @@ def damping(loss: float) -> str:
 
 def pic_loss(scene: Scene) -> float:
     """Return the share of the work of gravity that a blend with PIC takes from a slide, roughly."""
-    lasts = min(6.0 * sqrt(height_above_toe(surface_of(scene.geometry)) / STANDARD_GRAVITY), scene.numerics.end_time)
+    lasts = min(6.0 * sqrt(surface_of(scene.geometry).height / STANDARD_GRAVITY), scene.numerics.end_time)
     return LOSS_PER_STEP * (1.0 - scene.numerics.flip) * lasts / time_step(scene)

@@ -1,6 +1,6 @@
 """How to give slides more ground, in the keys of the scene's own kind of geometry."""
 
-from campaign.scene.ground_surface import height_above_toe, surface_of
+from campaign.scene.ground_surface import surface_of
 from campaign.scene.scene import Scene
 from campaign.terminal import listing, rounded_up
 
@@ -13,7 +13,7 @@ def key_of(scene: Scene, part: str) -> str:
 def behind_crest(scene: Scene) -> str:
     """Say how to move the wall behind the crest away, and what moves with it: x counts from that wall."""
     surface = surface_of(scene.geometry)
-    added = rounded_up(max(height_above_toe(surface), scene.numerics.cell))
+    added = rounded_up(max(surface.height, scene.numerics.cell))
     if scene.geometry.slope is not None:
         moved = f"; add {added} m to the x of each receptor" if scene.receptor else ""
         toe_x = surface.toe_x

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from hashlib import sha256
 from typing import Any
 
-from campaign.scene.ground_surface import height_above_toe, surface_of
+from campaign.scene.ground_surface import surface_of
 from campaign.scene.sections import SceneFile
 
 ADDED_LATER = {"soil.law": "mohr-coulomb"}
@@ -33,7 +33,7 @@ class Scene(SceneFile):
         It does not depend on the cells, so that one front is followed on every mesh.
         """
         given = self.slide.front_area
-        return (FRONT_WEDGE * height_above_toe(surface_of(self.geometry))) ** 2 if given is None else given
+        return (FRONT_WEDGE * surface_of(self.geometry).height) ** 2 if given is None else given
 
     def identity(self) -> dict[str, Any]:
         """Return, by dotted key, every SI value that decides what realization k is; ready for JSON."""

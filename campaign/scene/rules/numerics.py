@@ -1,6 +1,6 @@
 """The mesh must see the slope, the scheme be stable, and the times follow each other."""
 
-from campaign.scene.ground_surface import height_above_toe, surface_through
+from campaign.scene.ground_surface import surface_through
 from campaign.scene.rules.measures import Points
 from campaign.scene.rules.rule import Rules
 from solver.method import Basis, StressUpdate
@@ -25,7 +25,7 @@ def _cells_of_height(cell: float, height: float) -> str | None:
 def _cells_of_surface(cell: float, surface: Points | None) -> str | None:
     if surface is None:
         return None
-    return _cells_of_height(cell, height_above_toe(surface_through(surface)))
+    return _cells_of_height(cell, surface_through(surface).height)
 
 
 @RULES.on("numerics.courant", "numerics.basis", "numerics.stress_update")

@@ -1,6 +1,6 @@
 """A slope can fail, and has a sliding mass when it has."""
 
-from campaign.scene.ground_surface import height_above_toe, surface_through
+from campaign.scene.ground_surface import surface_through
 from campaign.scene.rules.measures import Points
 from campaign.scene.rules.rule import Rules
 
@@ -16,7 +16,7 @@ def _failure_within_height(failed: float, height: float) -> str | None:
 
 @RULES.on("slide.failed", "geometry.surface")
 def _failure_within_surface(failed: float, surface: Points | None) -> str | None:
-    return None if surface is None else _failure_within_height(failed, height_above_toe(surface_through(surface)))
+    return None if surface is None else _failure_within_height(failed, surface_through(surface).height)
 
 
 @RULES.on("slide.displaced", "slide.failed")

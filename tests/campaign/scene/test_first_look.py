@@ -9,7 +9,7 @@ import pytest
 
 from campaign.commands.first_look_text import first_look_text
 from campaign.errors import SceneError
-from campaign.scene import Scene, load_scene
+from campaign.scene import Scene, load_scene, scene_of
 from campaign.scene.constraints import tolerance
 from campaign.scene.document import read_document
 from campaign.scene.first_look import FirstLook, look_at
@@ -37,6 +37,32 @@ def test_a_circle_knows_how_deep_and_how_low_it_goes():
 def test_the_height_is_counted_from_the_toe_and_not_from_the_lowest_ground():
     surface = 'geometry={surface=[["0 m","22 m"],["20 m","22 m"],["35 m","7 m"],["75 m","5 m"]]}'
     assert look_at(load_scene("ma2023", [surface])).height == pytest.approx(15.0)
+
+
+def cut(*bump):
+    """Return a slope of 15 m with a bump or a ditch of a metre somewhere."""
+    points = sorted([(0, 19), (20, 19), (35, 4), (75, 4), *bump], key=lambda point: point[0])
+    return f"geometry={{surface={[[f'{x} m', f'{y} m'] for x, y in points]}}}"
+
+
+@pytest.mark.parametrize(
+    "bump",
+    [
+        pytest.param([(10, 19), (10, 20), (11, 20), (11, 19)], id="bump on the crest"),
+        pytest.param([(19, 19), (19, 20), (20, 20)], id="bump on the edge"),
+        pytest.param([(50, 4), (50, 5), (51, 5), (51, 4)], id="bump on the plain"),
+        pytest.param([(50, 4), (50, 3), (51, 3), (51, 4)], id="pit in the plain"),
+        pytest.param([(35, 3), (36, 3), (36, 4)], id="ditch at the toe"),
+    ],
+)
+def test_height_front_and_circles_are_the_slopes_own_and_not_those_of_a_bump(bump):
+    """Soil with little cohesion, of which a bump would be the first to fall."""
+    loose = ["soil.cohesion.residual=1 kPa", "soil.friction_angle.residual=4 deg"]
+    text = re.sub(r"(?m)^front_area.*\n", "", read_document("ma2023").text)
+    even, uneven = (scene_of(text, [*loose, cut(*each)]) for each in ([], bump))
+    assert uneven.front_area == pytest.approx(even.front_area)
+    assert look_at(uneven).height == pytest.approx(15.0)
+    assert look_at(uneven).residual.factor == pytest.approx(look_at(even).residual.factor, rel=0.1)
 
 
 def test_the_factor_scatters_as_the_strength_when_cohesion_alone_holds_the_slope():

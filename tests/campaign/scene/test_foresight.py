@@ -45,10 +45,13 @@ def test_the_built_in_scenes_are_sound(source):
         (["numerics.end_time=1 s"], "but half of comparable slides take more than 10 s to come to rest"),
         (["numerics.gravity=ramp"], "after the ramp of 2 s to come to rest"),
         (["geometry.slope.plain=3 m"], '--set geometry.slope.plain is "3 m", but slides of 15 m mostly run out'),
-        ([PROFILE], "the wall 10 m beyond the toe will hold them back; continue the ground to x = 57 m or farther"),
+        ([PROFILE], "the wall 10 m beyond the toe would hold them back; continue the ground to x = 57 m or farther"),
         (["geometry.slope.crest=4 m", "soil.cohesion.residual=4 kPa"], "begins at the wall on the left"),
         (["soil.friction_angle.mean=0.1 deg", "soil.friction_angle.residual=0 deg", "geometry.slope.angle=25 deg"],
-         "m above the fixed base, which then holds the slope; if there is no rock, deepen the foundation"),
+         "m below the fixed base if there was soil, and the base then holds the slope; if there is no rock, deepen"),
+        (["geometry.slope.foundation=2 m", "soil.friction_angle.mean=3 deg", "soil.friction_angle.residual=0.5 deg",
+          "soil.cohesion.mean=35 kPa"], "the critical slip circle comes down to 0.65 m above the fixed base, and the"),
+        (["geometry.slope.foundation=2 m"], "comes out at the toe, 2 m above the fixed base, and a band of 1.25 m may"),
         (["soil.cohesion.mean=1 kPa", "soil.cohesion.residual=1 kPa", "soil.friction_angle.mean=30 deg"],
          "badly; use "),
         (["numerics.output_interval=1e-4 s"], 'need 100,000 steps instead of 3,508; use "0.029 s" or more'),
@@ -82,6 +85,12 @@ def test_steep_faces_benches_and_ditches_of_a_cell_are_seen():
     points = [(0, 19), (20, 19), (20, 16), (22, 16), (30, 5), (31, 5), (32, 3), (33, 3), (34, 5), (75, 5)]
     ground = f"geometry={{surface={[[f'{x} m', f'{y} m'] for x, y in points]}}}"
     assert not any("wall or a slot" in text for text in warned(ground))
+
+
+def test_where_no_slide_is_expected_what_would_stop_one_is_told_as_an_if():
+    ground, run = warned("soil.cohesion.mean=45 kPa", "geometry.slope.plain=5 m", "numerics.end_time=2 s")[::-1]
+    assert "but no slide is expected, but should there be one, half of comparable" in run
+    assert "but no slide is expected, but should there be one, slides of 15 m" in ground
 
 
 def test_a_slope_that_cannot_slide_is_not_asked_for_a_longer_run():
