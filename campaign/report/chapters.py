@@ -17,7 +17,7 @@ from campaign.report.figures.receptor_histories import histories
 from campaign.report.figures.section import Section
 from campaign.report.figures.sensitivity import sensitivity
 from campaign.report.figures.strengths import strengths
-from campaign.report.inputs import effect_rows, property_rows
+from campaign.report.inputs import effect_rows, property_tables
 from campaign.report.replays import RANKS, Replays
 from campaign.results.results import Results
 
@@ -76,7 +76,7 @@ def _distances(results: Results, curve: Curve) -> Chapter:
 
 def _inputs(results: Results, section: Section) -> list[Plan]:
     """Return the figures on which inputs matter; without anything to say of them the chapter is left out."""
-    if not effect_rows(results) and not property_rows(results):
+    if not effect_rows(results) and not property_tables(results):
         return []
     return [
         Plan("ranking", "Which inputs matter", lambda: ranking(results)),

@@ -8,7 +8,7 @@ import numpy as np
 from campaign.fields.properties import BY_NAME, value_of
 from campaign.record import FINAL_RUNOUT, Status
 from campaign.results.results import Results
-from campaign.results.sensitivity import effects_of, map_of, ranking_of
+from campaign.results.sensitivity import Outcome, effects_of, map_of, ranking_of
 from campaign.scene.inputs import BY_KEY, MORE, raised, shown
 from campaign.statistics import sensitivity
 from campaign.statistics.changed_inputs import InputEffects
@@ -38,12 +38,19 @@ class EffectRow(NamedTuple):
 
 
 class PropertyRow(NamedTuple):
-    """A random property: correlation and regression of the run-out, and the change by more of it everywhere."""
+    """A random property: correlation and regression of an outcome, and the change by more of it everywhere."""
 
     name: str
     correlation: str
     regression: str
     everywhere: str
+
+
+class PropertyTable(NamedTuple):
+    """What follows the random properties, and a row for each of these."""
+
+    outcome: str
+    rows: list[PropertyRow]
 
 
 def sentences(results: Results) -> list[str]:
@@ -73,9 +80,18 @@ def effect_rows(results: Results) -> list[EffectRow]:
     return [_effect_row(results, key, effect, standing[key]) for key, effect in found.ranked().items()]
 
 
-def property_rows(results: Results) -> list[PropertyRow]:
+def property_tables(results: Results) -> list[PropertyTable]:
+    """Return how sliding and run-out follow the random properties; an outcome that is not known well enough is not."""
+    tables = [
+        PropertyTable("whether the slope slides", property_rows(results, "slide")),
+        PropertyTable("the run-out", property_rows(results, "runout")),
+    ]
+    return [table for table in tables if table.rows]
+
+
+def property_rows(results: Results, outcome: Outcome) -> list[PropertyRow]:
     """Return a row for each random property; without enough slides there is none."""
-    ranking, found = ranking_of(results.data, "runout"), map_of(results.data)
+    ranking, found = ranking_of(results.data, outcome), map_of(results.data) if outcome == "runout" else None
     if ranking is None:
         return []
     everywhere = [""] * len(ranking.correlation) if found is None else [_changed(each) for each in found.everywhere]

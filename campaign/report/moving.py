@@ -30,12 +30,15 @@ class Moving(NamedTuple):
         Numbers of the particles that stand for them.
     side : float
         Of an area before the slide, in m.
+    aside : float
+        How far the middle of an area lies from its particle before the slide, to the left and down, in m.
     covers : bool ndarray (n,)
         The particles that lie in one of them.
     """
 
     which: NDArray[np.intp]
     side: float
+    aside: float
     covers: NDArray[np.bool_]
 
 
@@ -49,14 +52,15 @@ class Frame(NamedTuple):
 
 
 def moving_areas(ground: Ground, shots: list[Snapshot], section: Section) -> Moving:
-    """Choose squares of one or more particles; each moves if the particle in its middle does."""
+    """Choose squares of one or more particles; each moves if the particle in or next to its middle does."""
     lattice, farthest = ground.lattice, np.max([shot.displacement for shot in shots], axis=0)
     moves = (farthest > ground.scene.slide.displaced) & (lattice.x < section.right)
     step = max(1, int(np.ceil(np.sqrt(np.count_nonzero(moves) / MOST))))
     i, j = (np.floor(at / section.side).astype(int) for at in (lattice.x, lattice.y))
     block = i // step * (j.max() + 1) + j // step
     which = np.flatnonzero(moves & (i % step == step // 2) & (j % step == step // 2))
-    return Moving(which, step * section.side, np.isin(block, block[which]))
+    aside = (step // 2 + 0.5 - 0.5 * step) * section.side
+    return Moving(which, step * section.side, aside, np.isin(block, block[which]))
 
 
 def colour_limits(section: Section) -> Array:
@@ -70,4 +74,5 @@ def frame_of(ground: Ground, section: Section, moving: Moving, shot: Snapshot) -
     x, y, far = shot.x[which], shot.y[which], shot.displacement[which] - ground.scene.slide.displaced
     ratio = shot.volume[which] / lattice.volume[which]
     shape = deformation_gradients((lattice.x[which], lattice.y[which]), (x, y), ratio, moving.side)
-    return Frame(x, y, shape, np.searchsorted(colour_limits(section), far))
+    middle = -moving.aside * shape.sum(axis=-1)
+    return Frame(x + middle[:, 0], y + middle[:, 1], shape, np.searchsorted(colour_limits(section), far))

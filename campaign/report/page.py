@@ -122,7 +122,7 @@ def _tables(results: Results, curves: Curves) -> dict[str, Any]:
         "has_mesh_error": results.outcomes.slides > 0 and has_mesh_error(results.discretisation),
         "input_sentences": inputs.sentences(results),
         "effects": inputs.effect_rows(results),
-        "properties": inputs.property_rows(results),
+        "properties": inputs.property_tables(results),
         "choices": modelling_choices(results.scene),
         "outcomes": outcomes(results),
         "scene": results.data.attrs["scene"],

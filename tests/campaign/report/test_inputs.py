@@ -6,10 +6,12 @@ import pytest
 from soil_campaign import soil_campaign
 
 from campaign.record import Status
+from campaign.report.chapters import chapters
+from campaign.report.distances import curves_of
 from campaign.report.figures import inputs, sensitivity
 from campaign.report.figures.section import section_of
 from campaign.report.figures.style import NotDrawableError, in_style
-from campaign.report.inputs import effect_rows, property_rows, sentences
+from campaign.report.inputs import effect_rows, property_rows, property_tables, sentences
 from campaign.results.results import Results
 from campaign.results.sensitivity import effects_of, map_of, ranking_of, with_sensitivity
 
@@ -93,7 +95,19 @@ def test_rows_are_in_the_order_of_effect(results):
     cohesion = next(row for row in rows if row.name == "mean peak cohesion")
     assert (cohesion.values, cohesion.pairs) == ("22 kPa instead of 20 kPa", "4")
     assert cohesion.per_deviation == f"{cohesion.change} for 10 %"
-    assert [row.name for row in property_rows(results)] == ["peak cohesion", "peak friction angle"]
+    assert [row.name for row in property_rows(results, "runout")] == ["peak cohesion", "peak friction angle"]
+
+
+def test_where_only_sliding_is_ranked_the_chapter_is_there_with_that():
+    """Of 80 realizations fewer than 30 slide: too few for their run-outs, enough for whether the slope slides."""
+    ranked = soil_campaign(80, standing=lambda runout: runout < 10.8)
+    rare = Results(ranked.data.drop_vars([name for name in ranked.data if str(name).startswith("input")]), ranked.scene)
+    assert rare.outcomes.slides < 30
+    (table,) = property_tables(rare)
+    assert table.outcome == "whether the slope slides"
+    assert [row.name for row in table.rows] == ["peak cohesion", "peak friction angle"]
+    section = section_of(rare.scene, rare.runouts)
+    assert "inputs" in [chapter.name for chapter in chapters(rare, curves_of(rare).all, section, None)]
 
 
 def test_too_little_is_said_in_a_sentence(bare):
@@ -101,7 +115,7 @@ def test_too_little_is_said_in_a_sentence(bare):
         "The 80 slides do not say which property of the soil matters; the slides to say what the inputs do were not "
         "computed again."
     ]
-    assert effect_rows(bare) == property_rows(bare) == []
+    assert effect_rows(bare) == property_tables(bare) == []
     for draw in drawings(bare):
         with pytest.raises(NotDrawableError, match="It needs"):
             draw()
