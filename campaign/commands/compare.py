@@ -19,7 +19,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help='compare the probability of a longer run-out, for instance "12 m" (repeatable)',
     )
     parser.add_argument(
-        "--out", metavar="DIR", type=Path, default=Path("comparison"), help="where to write (default: comparison)"
+        "--out",
+        metavar="DIR",
+        type=Path,
+        default=Path("comparison"),
+        help="where to write (default: comparison); of what is there, a comparison of the same campaigns is replaced",
     )
 
 

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+import xarray as xr
+
 from campaign.comparison.dataset import as_dataset
 from campaign.comparison.doubts import doubts
 from campaign.comparison.measures import measures
@@ -30,8 +32,29 @@ def refuse_campaign(directory: Path) -> None:
         raise RefusalError(f"{directory} holds a campaign, which a comparison must not mix with; give another --out.")
 
 
+def refuse_another(given: Comparison, directory: Path) -> None:
+    """Make sure that a directory holds no comparison but an earlier one of the same campaigns, which is replaced.
+
+    Raises
+    ------
+    RefusalError
+        When it holds another.
+    """
+    file = directory / f"{NAME}.nc"
+    if not file.exists():
+        return
+    try:
+        with xr.open_dataset(file) as earlier:
+            compared = tuple(map(str, earlier["scenario"].values))
+    except (OSError, ValueError, KeyError):
+        compared = ()
+    if compared != given.names:
+        of = f"compares {' with '.join(compared)}" if compared else "is no comparison of this program's"
+        raise RefusalError(f"{file} {of} and is left as it is; give another --out.")
+
+
 def write_comparison(given: Comparison, distances: Sequence[float], directory: Path) -> None:
-    """Print the differences of scenarios and write them to `directory`; an earlier comparison there is replaced.
+    """Print the differences of scenarios and write them to `directory`, over earlier ones of the same campaigns.
 
     Parameters
     ----------
@@ -43,8 +66,9 @@ def write_comparison(given: Comparison, distances: Sequence[float], directory: P
     Raises
     ------
     RefusalError
-        When nothing can be written.
+        When nothing can be written, or another comparison would be lost.
     """
+    refuse_another(given, directory)
     found, sentences = measures(given, distances), doubts(given)
     say(as_text(given, found, sentences))
     try:

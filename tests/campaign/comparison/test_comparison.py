@@ -212,6 +212,16 @@ def test_a_comparison_is_written_again_and_never_over_a_campaign(command, two, c
     assert not (two[0] / "comparison.nc").exists()
 
 
+def test_another_comparison_is_not_written_over(command, two, capsys, tmp_path):
+    assert command() == 0
+    file = tmp_path / "here" / "comparison" / "comparison.nc"
+    before = file.read_bytes()
+    assert cli.main(["compare", str(two[1]), str(two[0])]) == 2
+    assert "compares weak with strong and is left as it is; give another --out." in capsys.readouterr().err
+    assert file.read_bytes() == before
+    assert cli.main(["compare", str(two[1]), str(two[0]), "--out", "turned"]) == 0
+
+
 def test_a_distance_without_unit_is_refused(command, capsys):
     assert command("--distance", "12") == 2
     assert '--distance is "12", but a length needs its unit' in capsys.readouterr().err
