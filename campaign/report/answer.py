@@ -3,11 +3,12 @@
 import math
 import re
 from collections.abc import Iterable
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
 
-from campaign.record import Status
+from campaign.record import SLID, Status
 from campaign.report import estimates
 from campaign.report.aimed import from_all_models, is_aimed
 from campaign.report.cut_short import Cause, causes, in_one_clause
@@ -34,6 +35,10 @@ OUTCOMES = {
 
 VARYING = re.compile(r"[\d.]+(?= s\b| ?%)")
 """Numbers of a reason that are those of one realization."""
+
+
+SENTENCES = re.compile(r"(?<=\.) (?=[A-Z])")
+"""What parts sentences."""
 
 
 RARER = 0.01
@@ -70,7 +75,9 @@ def outcomes(results: Results) -> list[Outcome]:
 
 def _told_of(results: Results, status: Status, count: int) -> list[str]:
     """Return what is said of realizations that ended in one way, and of how many, if that is not all."""
-    kinds = alike(results.data["reason"].values[results.has_status([status])])
+    reasons = map(str, results.data["reason"].values[results.has_status([status])])
+    # What is said of slides is a sentence for each matter, of which a slide may have several; a failure has one reason.
+    kinds = alike(chain.from_iterable(map(SENTENCES.split, reasons)) if status in SLID else reasons)
     return [
         f"{'' if n == count else f'In {n:,} of them: '}{with_remedy(reason, results.scene)}"
         for reason, n in kinds.items()

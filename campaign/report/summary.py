@@ -39,12 +39,10 @@ def _ended(outcome: Outcome) -> str:
 
 def _places(results: Results) -> list[str]:
     """Return lines on whether slides reach receptors, below a heading; nothing without receptors or results."""
-    known = reach_estimates(results)
-    lines = [
-        f"  {each.receptor:16}{each.quantity}: {estimated_chance(each.interval)} ({chances(each.interval)})"
-        for reach in known
-        for each in reach
-    ]
+    known = [each for reach in reach_estimates(results) for each in reach]
+    margin = 4 + max((len(each.receptor) for each in known), default=0)
+    told = [f"{each.quantity}: {estimated_chance(each.interval)} ({chances(each.interval)})" for each in known]
+    lines = [paragraph(each.receptor, text, margin) for each, text in zip(known, told, strict=True)]
     return ["At the places asked about", *lines] if lines else []
 
 

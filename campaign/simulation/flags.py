@@ -11,7 +11,7 @@ from solver.walls import Walls
 
 CREST_WALL = "The slide has reached the wall behind the crest (x = 0 m), which hinders it."
 AHEAD_WALL = "The slide has reached the wall ahead of it (x = {width:g} m), which hinders it."
-ON_THE_BASE = "The slip surface runs along the fixed base under {share:.0%} of the sliding ground."
+ON_THE_BASE = "The slip surface runs along the fixed base under {percent:.0f} % of the sliding ground."
 
 REMEDIES: dict[str, Callable[[Scene], str]] = {
     "the wall behind the crest": more_ground.behind_crest,
@@ -37,7 +37,7 @@ def flags(model: Model, walls: Walls, values: Mapping[str, Value]) -> str:
         CAME_APART: float(values["detached_volume"]) > 0.0,
         CREST_WALL: walls.left,
         AHEAD_WALL.format(width=model.surface.width): walls.right,
-        ON_THE_BASE.format(share=values["base_contact"]): on_the_base,
+        ON_THE_BASE.format(percent=100.0 * float(values["base_contact"])): on_the_base,
     }
     return " ".join(sentence for sentence, holds in sentences.items() if holds)
 

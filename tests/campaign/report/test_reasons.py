@@ -16,7 +16,7 @@ from campaign.report.summary import summary
 from campaign.results.results import Results, read_results
 from campaign.seeds import BASELINE
 from campaign.simulation.detachment import CAME_APART
-from campaign.simulation.flags import AHEAD_WALL, CREST_WALL
+from campaign.simulation.flags import AHEAD_WALL, CREST_WALL, ON_THE_BASE
 from campaign.simulation.ground import prepare
 
 LEFT = "A particle left the grid at {time} s; widen the ground."
@@ -28,6 +28,8 @@ def test_reasons_that_differ_in_their_times_are_one():
 
 
 AHEAD = AHEAD_WALL.format(width=75.0)
+
+BASE = ON_THE_BASE.format(percent=12.0)
 
 RUNOUTS = 10.0 + 0.02 * np.arange(20)
 
@@ -75,6 +77,14 @@ def test_the_wall_in_the_way_is_named(twenty):
     ]
     assert told(2, reason="")[0][0] == "a wall of the model stopped 1 of 20 slides"
     assert told(reason="") == []
+
+
+def test_each_of_several_remarks_on_a_slide_is_counted_by_itself(twenty):
+    """Three slides met the wall, of which two slipped along the base besides, and a fourth slide did so alone."""
+    reasons = np.array([f"{AHEAD} {BASE}", AHEAD, "", f"{AHEAD} {BASE.replace('12', '31')}", BASE, *[""] * 15], object)
+    (outcome,) = outcomes(Results(twenty.data.assign(reason=("realization", reasons)), twenty.scene))
+    assert [reason.partition(":")[0] for reason in outcome.reasons] == ["In 3 of them", "In 3 of them"]
+    assert outcome.reasons[0].endswith(f"{AHEAD} Lengthen geometry.slope.plain.")
 
 
 def test_many_slides_cut_short_leave_no_upper_bound(twenty):

@@ -69,7 +69,7 @@ LEFT = "A particle left the grid on the {side} at 3.90 s; widen the ground there
     [
         (CREST_WALL, "Lengthen geometry.slope.crest", "Add ground on the left of geometry.surface"),
         (AHEAD_WALL.format(width=43.0), "Lengthen geometry.slope.plain.", "Continue geometry.surface beyond x = 43 m."),
-        (ON_THE_BASE.format(share=0.4), "Deepen geometry.slope.foundation.", "added to the elevation of each point"),
+        (ON_THE_BASE.format(percent=40.0), "Deepen geometry.slope.foundation.", "added to the elevation of each point"),
         (LEFT.format(side="right"), "Lengthen geometry.slope.plain.", "Continue geometry.surface beyond x = 43 m."),
         (LEFT.format(side="left"), "Lengthen geometry.slope.crest", "Add ground on the left of geometry.surface"),
     ],
