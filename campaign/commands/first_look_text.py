@@ -47,7 +47,7 @@ def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
 def _ground(look: FirstLook) -> str:
     surface = look.surface
     return (
-        f"{surface.width:.4g} m wide, {surface.top:.4g} m high, {surface.area:,.4g} m2; the slope rises "
+        f"{surface.width:.4g} m wide, {surface.top:.4g} m high above the base, {surface.area:,.4g} m2; the slope rises "
         f"{look.height:.4g} m above its toe."
     )
 
@@ -118,10 +118,11 @@ def _field(size: FieldSize) -> str:
 def _cost(scene: Scene) -> str:
     if scene.campaign.accuracy is not None:
         return _cost_of_accuracy(scene)
-    hours = core_seconds(scene) / 3600.0
+    hours, seconds = core_seconds(scene) / 3600.0, realization_seconds(scene)
     return (
-        f"At most {duration(max(realization_seconds(scene), 1.0))} a realization, and "
-        f"{f'{hours:.2g}' if hours < 99.5 else f'{hours:,.0f}'} core-hours for all {scene.campaign.realizations:,}, "
+        f"About {duration(seconds) if seconds >= 9.5 else f'{seconds:.1g} s'} for a realization that moves until the "
+        f"end, less for others; at most {f'{hours:.2g}' if hours < 99.5 else f'{hours:,.0f}'} core-hours for all "
+        f"{scene.campaign.realizations:,}, "
         f"with {pairs(scene):,} repeated at half the cell and {with_more_of_an_input(scene):,} with one input changed, "
         f"at {speed(scene) / 1e6:.2g} million particle-steps a second."
     )

@@ -69,17 +69,25 @@ def _with_other_release(scene: Scene, means: Means) -> tuple[ReleaseComparison |
 def _with_half_cell(scene: Scene, tally: Tally, pairs: int, means: Means) -> tuple[Discretisation | None, str]:
     """Repeat the first realizations with half the cell; what has no run-out of its own needs no repetition."""
     finer = discretisation.with_half_cell(scene, pairs)
+    known = [summary for summary in tally.summaries.values() if summary.status not in UNHINDERED]
+    asked = {BASELINE, *range(pairs)} - {summary.realization for summary in known}
     run = SideRun(
         scene=lambda: finer,
         directory=means.home / HALF_CELL,
-        announcement=(
-            f"Discretisation error: {counted(pairs, 'realization')} and the deterministic run again, with cells of "
-            f"{finer.numerics.cell:g} m."
-        ),
+        announcement=f"Discretisation error: {_again(asked, pairs)} again, with cells of {finer.numerics.cell:g} m.",
         loss="The discretisation error cannot be estimated with half the cell.",
-        known=[summary for summary in tally.summaries.values() if summary.status not in UNHINDERED],
+        known=known,
     )
     made = make(run, means)
     if made.tally is None:
         return None, made.stopped
     return discretisation.estimate(scene, tally, made.tally), made.stopped
+
+
+def _again(asked: set[int], pairs: int) -> str:
+    """Say which of the deterministic run and the first realizations are asked for: what slid, and met no wall."""
+    number = len(asked - {BASELINE})
+    those = counted(number, "realization")
+    if number < pairs:
+        those = f"{number:,} of the first {counted(pairs, 'realization')}, where nothing else slid or walls were met,"
+    return f"{those} and the deterministic run" if BASELINE in asked else those

@@ -92,13 +92,20 @@ def _std(std: Interval) -> str:
     return f"{std.estimate:.2f} m ({std.lower:.2f} to {std.upper:.2f})" if std.is_known else "not enough yet"
 
 
+def _forecast(predicted: float, maximum: int) -> str:
+    """Say how many realizations the campaign needs, or that it ends before it has these."""
+    if predicted <= maximum:
+        return f"about {predicted:,.0f} needed"
+    return f"ends at {maximum:,}, not converged: about {predicted:,.0f} would be needed"
+
+
 def _time_left(tally: Tally, rate: float, ahead: Ahead) -> str:
     needed, forecast = tally.maximum, ""
     latest = tally.latest()
     if tally.prefix >= (tally.rule.minimum if latest.outcomes.slides else tally.rule.block):
         predicted = predicted_stop(latest, tally.rule)
         needed = int(min(predicted, tally.maximum)) if math.isfinite(predicted) else tally.maximum
-        forecast = f" | about {predicted:.0f} needed" if math.isfinite(predicted) else ""
+        forecast = f" | {_forecast(predicted, tally.maximum)}" if math.isfinite(predicted) else ""
     if rate <= 0 or needed <= tally.done:
         return forecast
     after = ahead(tally, rate)

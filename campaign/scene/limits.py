@@ -82,8 +82,8 @@ def too_much_damping(scene: Scene) -> Complaint | None:
 def damping(loss: float) -> str:
     """Say what a loss means."""
     return (
-        f"this damping takes about {min(loss, 1.0):.1%} of the work of gravity from a slide, and one that loses more "
-        f"than {ALLOWED_LOSS:.1%} ends as diverged"
+        f"this damping takes about {100 * min(loss, 1.0):.1f} % of the work of gravity from a slide, and one that "
+        f"loses more than {100 * ALLOWED_LOSS:.1f} % ends as diverged"
     )
 
 

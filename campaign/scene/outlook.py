@@ -29,7 +29,8 @@ def outlook(look: FirstLook, is_brittle: bool = False) -> str:
     if look.slide_probability >= CERTAIN:
         return f"Nearly every realization slides.{_end(look)}"
     if look.slide_probability > 1.0 - CERTAIN:
-        return f"Some realizations slide: {_between(look, look.peak, is_brittle)}.{_end(look)}"
+        many = "Most" if look.slide_probability > 0.5 else "Some"
+        return f"{many} realizations slide: {_between(look, look.peak, is_brittle)}.{_end(look)}"
     if look.peak.factor < BARELY_STABLE and look.residual is not None and look.residual.factor < 1.0:
         return (
             "Hardly any realization slides by this measure, but softening can start a slide where the factor of safety "
@@ -41,7 +42,7 @@ def outlook(look: FirstLook, is_brittle: bool = False) -> str:
 def _between(look: FirstLook, peak: SlipCircle, is_brittle: bool) -> str:
     """Say how many slide: to first order in the strengths if each had one everywhere, and what that leaves out."""
     share = look.slide_probability
-    percent = f"{share:.0%}" if share >= 0.01 else f"{share:.1%}"
+    percent = f"{100 * share:.{0 if 0.01 <= share <= 0.99 else 1}f} %"
     one = f"{percent} if each had one strength everywhere (standard deviation of the factor {look.spread:.2g})"
     averaged = f"{'more' if share > 0.5 else 'fewer'} where strength varies within the slope and averages out"
     if not is_brittle or look.residual is None or look.residual.factor >= 1.0:

@@ -29,6 +29,13 @@ def test_without_a_slide_there_is_a_probability_all_the_same():
     assert "about 40 needed" in Progress(tally).line(tally)
 
 
+def test_more_than_may_run_is_not_forecast_as_if_it_would():
+    tally = filled([BASELINE], maximum=30)
+    for k in range(11):
+        tally.add(summary_of(k, 0.3, Status.no_slide))
+    assert " | ends at 30, not converged: about 40 would be needed" in Progress(tally).line(tally)
+
+
 @pytest.mark.parametrize("beyond", [0, 5])
 def test_after_the_end_only_what_is_in_the_result_is_counted(beyond):
     """The rule stops at 70; what other ranks had begun by then is finished, and may fail."""

@@ -55,7 +55,7 @@ def test_the_built_in_scenes_are_sound(source):
         (["soil.cohesion.mean=1 kPa", "soil.cohesion.residual=1 kPa", "soil.friction_angle.mean=30 deg"],
          "badly; use "),
         (["numerics.output_interval=1e-4 s"], 'need 100,000 steps instead of 3,508; use "0.029 s" or more'),
-        (["numerics.flip=0.999"], "--set numerics.flip is 0.999, but this damping takes about 0.8% of the work"),
+        (["numerics.flip=0.999"], "--set numerics.flip is 0.999, but this damping takes about 0.8 % of the work"),
         (["campaign.realization_timeout=1 s", "numerics.cell=0.5 m"],
          'may take 5 s; use at least "0.0029 h", or larger cells'),
         (["campaign.discretisation_pairs=2"], "is 2, but so few pairs hardly bound what half the cell changes"),
