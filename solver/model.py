@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from solver.basis import half_length_in_cells
+from solver.domain import half_length_in_cells
 from solver.grid import Grid, allocate_grid, particle_spacing
 from solver.internal_length import smoothing_weights
 from solver.laws.registry import Law

@@ -3,8 +3,7 @@
 from campaign.fields.properties import BY_NAME
 from campaign.scene import Scene
 from campaign.scene.sections import Numerics, RandomField
-from campaign.scene.softening import known_rate, softening_words
-from campaign.simulation.solver_model import softening_rate
+from campaign.scene.softening import known_rate, softening_rate, softening_words
 
 LOCKING = {
     "none": "none: ground that yields without a change of volume is too strong by 10 to 35 %",

@@ -2,7 +2,8 @@
 
 from campaign.scene.scene import Scene
 from campaign.scene.sections import Softening
-from solver.internal_length import BAND_THICKNESS
+from solver.domain import half_length_in_cells
+from solver.internal_length import BAND_THICKNESS, rate_on_cells
 from solver.slip_to_residual import SHARE_LEFT, rate_of, slip_of
 
 LOCKED_BAND_THICKNESS = 4.4
@@ -19,6 +20,17 @@ def known_rate(softening: Softening) -> float | None:
     if softening.slip_to_residual is None or softening.internal_length is None:
         return softening.rate
     return rate_of(softening.slip_to_residual, softening.internal_length, softening.law == "linear")
+
+
+def softening_rate(scene: Scene) -> float:
+    """Return the rate, per unit plastic strain, at which the strength of a scene softens on its cells."""
+    softening, numerics = scene.soil.softening, scene.numerics
+    rate = known_rate(softening)
+    if softening.law == "none" or rate is None:
+        return 0.0
+    half_length = half_length_in_cells(numerics.basis, numerics.particles_per_cell)
+    internal_length = softening.internal_length or 0.0
+    return rate_on_cells(rate, numerics.cell, half_length, internal_length, softening.reference_cell)
 
 
 def share_left(softening: Softening, slip: float, is_locked: bool) -> float:

@@ -17,8 +17,6 @@ from solver.observables import slope_body
 from solver.particles import Particles
 from solver.surface import Surface
 
-CAME_APART = "The front-most ground has come apart from the slide; final_runout is the place of that debris."
-
 TOUCH = 1e-6
 """The weight from which on a particle touches a node; the linear basis is a hat function up to that."""
 

@@ -1,14 +1,17 @@
 """Sentences about a slide that ran to its end and yet is not the slope's own."""
 
 from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
 
 from campaign.record import Value
 from campaign.scene import Scene, more_ground
-from campaign.simulation.detachment import CAME_APART
 from campaign.terminal import as_sentence
-from solver.model import Model
-from solver.walls import Walls
 
+if TYPE_CHECKING:  # with Numba, for which those who only read the sentences do not wait
+    from solver.model import Model
+    from solver.walls import Walls
+
+CAME_APART = "The front-most ground has come apart from the slide; final_runout is the place of that debris."
 CREST_WALL = "The slide has reached the wall behind the crest (x = 0 m), which hinders it."
 AHEAD_WALL = "The slide has reached the wall ahead of it (x = {width:g} m), which hinders it."
 ON_THE_BASE = "The slip surface runs along the fixed base under {percent:.0f} % of the sliding ground."
@@ -26,7 +29,7 @@ MUCH_CONTACT = 0.1
 """Share of the sliding ground that slips along the base, from which on the base and not the soil shapes the slide."""
 
 
-def flags(model: Model, walls: Walls, values: Mapping[str, Value]) -> str:
+def flags(model: "Model", walls: "Walls", values: Mapping[str, Value]) -> str:
     """Return what has to be said of a march that did not fail; "" if nothing.
 
     Ground that stands on the base itself, like a heap on a floor, has no foundation that could be too thin.

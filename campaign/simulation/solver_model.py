@@ -8,11 +8,9 @@ from numpy.typing import NDArray
 
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.scene import Scene
-from campaign.scene.softening import known_rate
-from solver.basis import half_length_in_cells
+from campaign.scene.softening import softening_rate
 from solver.constants import STANDARD_GRAVITY
 from solver.grid import whole_cells
-from solver.internal_length import rate_on_cells
 from solver.laws.registry import Constants, make_law
 from solver.materials import Material
 from solver.method import Method
@@ -45,17 +43,6 @@ def material_of(scene: Scene) -> Material:
     softening = Softening(softening_rate(scene), soil.softening.law == "linear")
     constants = Constants(soil.young_modulus, soil.poisson_ratio, soil.dilation_angle, softening)
     return Material(soil.unit_weight / STANDARD_GRAVITY, soil.poisson_ratio, make_law(soil.law, constants))
-
-
-def softening_rate(scene: Scene) -> float:
-    """Return the rate, per unit plastic strain, at which the strength of a scene softens on its cells."""
-    softening, numerics = scene.soil.softening, scene.numerics
-    rate = known_rate(softening)
-    if softening.law == "none" or rate is None:
-        return 0.0
-    half_length = half_length_in_cells(numerics.basis, numerics.particles_per_cell)
-    internal_length = softening.internal_length or 0.0
-    return rate_on_cells(rate, numerics.cell, half_length, internal_length, softening.reference_cell)
 
 
 def output_times(end_time: float, interval: float) -> Array:

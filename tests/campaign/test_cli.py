@@ -48,6 +48,13 @@ def test_a_rank_loads_neither_solver_nor_figures_before_the_scene_is_read():
     assert result.stdout.strip() == "[]"
 
 
+def test_results_are_told_in_words_without_the_compiler():
+    """Which takes half a second to load."""
+    program = "import sys, campaign.report.summary; print('numba' in sys.modules)"
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert result.stdout.strip() == "False"
+
+
 def test_later_options_win_over_set():
     options = cli.parser().parse_args(["run", "s", "--seed", "7", "--realizations", "4", "--set", "campaign.seed=1"])
     assert overrides(options) == ["campaign.seed=1", "campaign.realizations=4", "campaign.seed=7"]

@@ -12,7 +12,7 @@ from vibrating_bar import MODULUS as BAR_MODULUS
 from vibrating_bar import SPEED as BAR_SPEED
 
 from solver import observables
-from solver.basis import half_length_in_cells
+from solver.domain import half_length_in_cells
 from solver.elastic import p_wave_speed
 from solver.operations import INTERNAL_WORK
 from solver.particles import allocate_particles

@@ -1,7 +1,8 @@
 """A ground in the place of the solver's: instant, deterministic in (seed, realization, cell), and faulty on demand.
 
 Run under mpirun as a campaign: `python stand_in.py DIR REALIZATIONS`, with STAND_IN_* variables for faults, and one for
-a file that holds the table of quantities, for whose sake each rank would load the solver.
+a file that holds what takes each start long to find out: the table of quantities, for whose sake each rank would load
+the solver, and the hashes of the sources.
 """
 
 import ctypes
@@ -24,9 +25,12 @@ from campaign.record import Quantity, Record, Status, units_of, with_dims
 from campaign.scene import Scene, load_scene
 from campaign.seeds import BASELINE, Stream, generator
 from campaign.simulation.contract import Interrupted
+from campaign.storage import manifest
 
-if kept := os.environ.get("STAND_IN_QUANTITIES"):
-    QUANTITIES: dict[str, Quantity] = pickle.loads(Path(kept).read_bytes())
+if kept := os.environ.get("STAND_IN_KEPT"):
+    QUANTITIES: dict[str, Quantity]
+    QUANTITIES, hashes = pickle.loads(Path(kept).read_bytes())
+    manifest.source_hashes = lambda: hashes
 else:
     from campaign.simulation.quantities import QUANTITIES
 

@@ -18,6 +18,7 @@ import xarray as xr
 from campaign.record import Quantity
 from campaign.simulation.quantities import QUANTITIES
 from campaign.storage.lock import DirectoryLock
+from campaign.storage.provenance import source_hashes
 
 MPIRUN = Path(sys.prefix) / "bin" / "mpirun"
 NEEDS_MPIRUN = pytest.mark.skipif(not MPIRUN.exists(), reason="needs the mpich extra")
@@ -44,18 +45,18 @@ def code_after(number):
 
 
 @cache
-def quantities_file():
-    """A file with the table of quantities, without the functions that compute them."""
+def kept_file():
+    """A file with the table of quantities, without the functions that compute them, and the hashes of the sources."""
     table = {
         name: Quantity(*(getattr(row, field.name) for field in fields(Quantity))) for name, row in QUANTITIES.items()
     }
-    path = Path(tempfile.mkdtemp()) / "quantities"
-    path.write_bytes(pickle.dumps(table))
+    path = Path(tempfile.mkdtemp()) / "kept"
+    path.write_bytes(pickle.dumps((table, source_hashes())))
     return path
 
 
 def start(directory, realizations=40, ranks=2, overrides=(), **faults):
-    settings = {"quantities": quantities_file()} | faults
+    settings = {"kept": kept_file()} | faults
     environment = os.environ | {f"STAND_IN_{name.upper()}": str(value) for name, value in settings.items()}
     command = [MPIRUN, "-n", str(ranks), sys.executable, STAND_IN, directory, str(realizations), *overrides]
     return subprocess.Popen(

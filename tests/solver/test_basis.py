@@ -5,7 +5,8 @@ import pytest
 from scipy.integrate import quad
 from scipy.interpolate import BSpline
 
-from solver.basis import allocate_stencil, evaluate_stencil, half_length_in_cells, weight_and_gradient
+from solver.basis import allocate_stencil, evaluate_stencil, weight_and_gradient
+from solver.domain import half_length_in_cells
 from solver.grid import allocate_grid
 
 HALF_LENGTHS = [0.125, 1.0 / 6.0, 0.25, 0.5]  # 16, 9, 4 and 1 particles a cell

@@ -15,8 +15,7 @@ from campaign.report.reservations import reasons_for_doubt
 from campaign.report.summary import summary
 from campaign.results.results import Results, read_results
 from campaign.seeds import BASELINE
-from campaign.simulation.detachment import CAME_APART
-from campaign.simulation.flags import AHEAD_WALL, CREST_WALL, ON_THE_BASE
+from campaign.simulation.flags import AHEAD_WALL, CAME_APART, CREST_WALL, ON_THE_BASE
 from campaign.simulation.ground import prepare
 
 LEFT = "A particle left the grid at {time} s; widen the ground."

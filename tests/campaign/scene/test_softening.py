@@ -7,8 +7,7 @@ import pytest
 from scene_complaints import complaint, written
 
 from campaign.scene import load_scene
-from campaign.scene.softening import softening_words
-from campaign.simulation.solver_model import softening_rate
+from campaign.scene.softening import softening_rate, softening_words
 
 
 def test_softening_needs_a_rate_only_if_it_has_a_law(tmp_path: Path) -> None:

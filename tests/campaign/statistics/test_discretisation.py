@@ -7,9 +7,9 @@ from tallies import summary_of
 
 from campaign.record import Status
 from campaign.scene import load_scene
+from campaign.scene.softening import softening_rate
 from campaign.seeds import BASELINE
 from campaign.simulation.ground import prepare
-from campaign.simulation.solver_model import softening_rate
 from campaign.statistics.discretisation import Discretisation, estimate, with_half_cell
 from campaign.statistics.tally import tally_of
 
