@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from campaign.record import SLID
 from campaign.report.distances import round_step
 from campaign.report.figures.domains import covering
-from campaign.report.figures.particles import rectangles
+from campaign.report.figures.particles import still_areas
 from campaign.report.figures.section import Section
 from campaign.report.moving import LEVELS, Frame, colour_limits, frame_of, moving_areas
 from campaign.report.replays import Replays
@@ -108,7 +108,7 @@ def _film(title: str, slide: ReplayedSlide, replayed: Replays, section: Section)
     frames = [frame_of(ground, section, moving, shot) for shot in shots]
     surfaces = np.stack([_surface(ground, shot) for shot in shots])
     x = ground.coordinates["x"]
-    still = rectangles(ground.lattice.x[never], ground.lattice.y[never], np.zeros(never.sum(), np.intp), section.side)
+    still = still_areas((ground.lattice.x, ground.lattice.y), never, section)
     data = {
         "places": _packed(np.stack([np.stack([x, y], -1) for x, y, _, _ in frames]) / unit, "<i2"),
         "shapes": _packed(np.stack([shape.reshape(-1, 4) for _, _, shape, _ in frames]) * SHAPE, "i1"),
@@ -119,7 +119,7 @@ def _film(title: str, slide: ReplayedSlide, replayed: Replays, section: Section)
         "captions": [*(_caption(shot) for shot in shots[:-1]), end],
     }
     line = "L".join(f"{a:.0f} {b:.0f}" for a, b in zip(x / unit, surfaces[-1] / unit, strict=True))
-    return Film(title, _path(still[0] / unit), _last(frames[-1], moving.side, unit), f"M{line}", end, data)
+    return Film(title, _path(still / unit), _last(frames[-1], moving.side, unit), f"M{line}", end, data)
 
 
 def _surface(ground: Ground, shot: Snapshot) -> Array:

@@ -16,7 +16,7 @@ def influence(results: Results, section: Section) -> Illustration:
     x, y, share = (results.data[name].values for name in ("particle_x", "particle_y", "influence_probability"))
     figure, (axes,) = new_figure(0.92 * COLUMN * section.panel_height + 1.1, width=COLUMN)
     scale, moves = Scale("viridis_r", 0.0, 100.0), share > 0
-    draw_still(axes, x[~moves], y[~moves], section.side)
+    draw_still(axes, (x, y), ~moves, section)
     draw_lattice(axes, x[moves], y[moves], 100.0 * share[moves], scale, section.side)
     section.frame(axes)
     axes.set_xlabel("distance (m)")

@@ -14,6 +14,7 @@ from matplotlib.path import Path
 from numpy.typing import NDArray
 
 from campaign.report.figures.domains import SEAM
+from campaign.report.figures.section import Section
 from campaign.report.figures.style import STILL
 from campaign.simulation.solver_model import Array
 
@@ -54,9 +55,34 @@ def draw_areas(axes: Axes, areas: Array, values: Array, scale: Scale) -> None:
         _add(axes, areas[levels == level], scale.colour(level), len(areas) > MANY)
 
 
-def draw_still(axes: Axes, x: Array, y: Array, side: float) -> None:
-    """Draw ground that has not moved, where it is on the lattice, in grey."""
-    _add(axes, rectangles(x, y, np.zeros(x.size, dtype=np.intp), side)[0], STILL, False)
+def draw_still(axes: Axes, lattice: tuple[Array, Array], is_still: NDArray[np.bool_], section: Section) -> None:
+    """Draw ground that has not moved, where it is on the lattice, in grey; see `still_areas`."""
+    _add(axes, still_areas(lattice, is_still, section), STILL, False)
+
+
+def still_areas(lattice: tuple[Array, Array], is_still: NDArray[np.bool_], section: Section) -> Array:
+    """Return the corners (k, 4, 2) in m of ground that has not moved; it ends at the surface and not at a particle's.
+
+    Parameters
+    ----------
+    lattice : tuple of arrays (n,)
+        Places x, y in m of all particles.
+    is_still : bool array (n,)
+    section : Section
+    """
+    (x, y), side = lattice, section.side
+    column, row = (np.floor(at / side).astype(np.intp) for at in (x, y))
+    top = np.full(column.max() + 1, -1)
+    np.maximum.at(top, column, row)
+    is_top = is_still & (row == top[column])
+    below = is_still & ~is_top
+    whole, _ = rectangles(x[below], y[below], np.zeros(np.count_nonzero(below), dtype=np.intp), side)
+    left, low = side * column[is_top], side * row[is_top] - 0.5 * (SEAM - 1.0) * side
+    right = left + side
+    # Just inside its ends, so that each column follows the surface on its own side of a vertical face.
+    ends = [section.surface.height_at(at).clip(low) for at in (left + 1e-6 * side, right - 1e-6 * side)]
+    tops = np.array([(left, low), (right, low), (right, ends[1]), (left, ends[0])]).transpose(2, 0, 1)
+    return np.concatenate([whole, tops])
 
 
 def draw_lattice(axes: Axes, x: Array, y: Array, values: Array, scale: Scale, side: float) -> None:

@@ -31,7 +31,7 @@ def draw_slide(axes: Axes, section: Section, ground: Ground, shot: Snapshot, val
     lattice, side = ground.lattice, section.side
     moves, shown = shot.displacement > ground.scene.slide.displaced, shot.x < section.right + side
     still = ~moves & shown
-    draw_still(axes, lattice.x[still], lattice.y[still], side)
+    draw_still(axes, (lattice.x, lattice.y), still, section)
     moving = moves & shown
     deformation = deformation_gradients((lattice.x, lattice.y), (shot.x, shot.y), shot.volume / side**2, side)
     areas = covering(shot.x[moving], shot.y[moving], deformation[moving], side)

@@ -1,11 +1,17 @@
 """Domains follow the ground as it deforms, and areas on the lattice are joined without a change of the picture."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+from campaign.report import moving
 from campaign.report.figures.domains import LONGEST, SHORTEST, corners, deformation_gradients, undeformed
 from campaign.report.figures.labels import Label, highest, place_labels
-from campaign.report.figures.particles import LEVELS, Scale, rectangles
+from campaign.report.figures.particles import LEVELS, Scale, rectangles, still_areas
+from campaign.report.figures.section import Section
+from campaign.scene import load_scene
+from solver.surface import Surface, slope_surface
 
 SIDE = 0.5
 X, Y = (axis.ravel() for axis in np.meshgrid(SIDE * (np.arange(8) + 0.5), SIDE * (np.arange(6) + 0.5)))
@@ -68,6 +74,39 @@ def test_neighbours_of_one_colour_are_one_rectangle():
     assert joined[..., 0].min() == pytest.approx(single[..., 0].min())
     assert joined[..., 1].max() == pytest.approx(single[..., 1].max())
     assert np.all(area(joined) > 0)
+
+
+def test_still_ground_ends_at_the_surface_and_not_at_that_of_a_particle():
+    """A surface that falls from 3.2 to 2.7 m over a lattice of 0.5 m, whose particles end at 3 m and at 2.5 m."""
+    surface = Surface(np.array([0.0, 4.0]), np.array([3.2, 2.7]))
+    is_there = surface.height_at(X) > Y
+    areas = still_areas((X[is_there], Y[is_there]), np.ones(is_there.sum(), bool), Section(surface, SIDE, 4.0, 4.0))
+    tops = areas[areas[..., 1].max(axis=1) > 2.6]
+    at, elevation = tops[:, 2:, 0], tops[:, 2:, 1]
+    np.testing.assert_allclose(elevation, surface.height_at(at), atol=1e-5)
+    assert at.min() == 0.0
+    assert at.max() == 4.0
+
+
+@pytest.mark.parametrize("step", [1, 2, 3])
+def test_joined_squares_lie_where_the_particles_lie_that_they_stand_for(step):
+    """24 x 24 particles as squares of one, two or three a side: they cover the same ground."""
+    side = 1.0 / 24
+    i, j = (axis.ravel() for axis in np.meshgrid(np.arange(24), np.arange(24)))
+    x, y = side * (i + 0.5), side * (j + 0.5)
+    lattice = SimpleNamespace(x=x, y=y, volume=np.full(x.size, side**2))
+    ground = SimpleNamespace(lattice=lattice, scene=load_scene("ma2023"))
+    shot = SimpleNamespace(x=x + 3.0, y=y, displacement=np.full(x.size, 3.0), volume=lattice.volume)
+    section = Section(slope_surface(1.0, 0.8, 2.0, 4.0, 1.0), side, 9.0, 2.0)
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(moving, "MOST", x.size / step**2)
+        found = moving.moving_areas(ground, [shot], section)
+    assert found.side == pytest.approx(step * side)
+    frame = moving.frame_of(ground, section, found, shot)
+    assert frame.x.min() - 0.5 * found.side == pytest.approx(3.0)
+    assert frame.x.max() + 0.5 * found.side == pytest.approx(4.0)
+    assert frame.y.min() - 0.5 * found.side == pytest.approx(0.0)
+    assert frame.y.max() + 0.5 * found.side == pytest.approx(1.0)
 
 
 def test_there_are_no_rectangles_of_nothing():
