@@ -30,8 +30,29 @@ HEADER = """\
 title = {title}
 """
 
-FRONT_AREA = """\
-# front_area = "2.2 m^2"        # slid ground ahead of the front of the mass; if left out, height^2 / 100"""
+OF_ANY_SLOPE = {
+    r"front_area = .*": '# front_area = "2.2 m^2"        # slid ground ahead of the front; if left out, height^2 / 100',
+    r"# The paper gives no other length(?:.*\n#)*.*": "# Lengths of the flats above and below it, and depth of the ground under its toe.",
+    r'(crest = "20 m" +)# ours: .*': r"\1# ours: as far behind it as slides may take ground, or farther",
+    r'(foundation = "4 m" +)# ours: .*': r"\1# ours: as deep as slip surfaces may go, or down to rock",
+    r"# The one free parameter(?:.*\n#)*.*": """\
+# No input moves the run-out more, and none is measured less: replace it by slip_to_residual = "0.3 m", the slip after
+# which a ring shear test has lost 95 % of the drop from peak to residual strength (0.1 to 0.5 m in clay). This rate is
+# calibrated to one published run-out and is a slip of 34 m.""",
+}
+"""Lines of the built-in scene that speak of that slope alone, by regular expressions, and what a new scene has there.
+
+What front suits a slope of 15 m in the paper is a fraction of a particle in a larger one.
+"""
+
+RECEPTORS = """
+
+# Places asked about, such as a road or the walls of a house: whether the slide reaches them, and what arrives.
+#
+#     [[receptor]]
+#     name = "road"
+#     x = ["46 m", "50 m"]      # or one x; counted from the wall behind the crest, as in surface
+"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -71,7 +92,7 @@ def new_scene(file: Path) -> str:
     from campaign.scene.document import read_document
 
     body = read_document(TEMPLATE).text.partition("\ntitle = ")[2].partition("\n")[2]
-    # What suits a slope of 15 m in the paper is a fraction of a particle in a larger one.
-    body = re.sub(r"(?m)^front_area = .*$", FRONT_AREA, body)
+    for of_template, text in OF_ANY_SLOPE.items():
+        body = re.sub(f"(?m)^{of_template}$", text, body)
     title = json.dumps(file.stem, ensure_ascii=False)
-    return HEADER.format(name=file.stem, file=file.name, title=title) + body
+    return HEADER.format(name=file.stem, file=file.name, title=title) + body.rstrip("\n") + RECEPTORS

@@ -53,4 +53,4 @@ def _receptors(made: Trial) -> str:
 
 
 def _listed(receptors: Sequence[Receptor]) -> str:
-    return listing([f"{each.name} (x = {each.x[0]:g} m)" for each in receptors])
+    return listing([f"{each.name} ({each.where})" for each in receptors])

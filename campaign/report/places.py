@@ -109,7 +109,7 @@ def _has_front(results: Results, receptor: Receptor) -> NDArray[np.bool_]:
 
 
 def _place(results: Results, receptor: Receptor, reach: list[ReceptorEstimate]) -> Place:
-    name, (near, far) = receptor.name, receptor.x
+    name = receptor.name
     probabilities = [
         (each.quantity.removeprefix("probability that "), estimated_chance(each.interval), chances(each.interval))
         for each in reach
@@ -117,14 +117,13 @@ def _place(results: Results, receptor: Receptor, reach: list[ReceptorEstimate]) 
     ]
     data = results.data.sel(receptor=name)
     with_front, with_ahead = _has_front(results, receptor), data["receptor_ahead_depth"].values > 0.0
-    where = f"x = {near:g} m" if near == far else f"x = {near:g} to {far:g} m"
     effects = _distributions(data, ARRIVALS | EFFECTS, with_front, results.confidence)
     ahead = _distributions(data, AHEAD, with_ahead, results.confidence)
     alone = {RISE: f"{EFFECTS[RISE]} where the front does not come"}
     ahead += _distributions(data, alone, with_ahead & ~with_front, results.confidence)
     slides, pushed = int(np.count_nonzero(with_front)), _pushed(with_ahead, with_front)
     thrown_back = _thrown_back(results, receptor, with_front | with_ahead)
-    return Place(name, where, probabilities, slides, effects, pushed, ahead, thrown_back)
+    return Place(name, receptor.where, probabilities, slides, effects, pushed, ahead, thrown_back)
 
 
 def _thrown_back(results: Results, receptor: Receptor, comes: NDArray[np.bool_]) -> str:

@@ -185,6 +185,12 @@ class Receptor(Section):
     name: Annotated[Name, Field(examples=["road"])]
     x: Annotated[Stretch, Field(examples=["42 m"])]
 
+    @property
+    def where(self) -> str:
+        """Its place in words, "x = 42 m" or "x = 40 to 46 m"."""
+        near, far = self.x
+        return f"x = {near:g} m" if near == far else f"x = {near:g} to {far:g} m"
+
 
 class Campaign(Section):
     """How many realizations, from which seed, and when they are enough.

@@ -102,11 +102,13 @@ def _circle(axes: Axes, circle: SlipCircle | None, colour: str, begin: float, st
 
 def _places(section: Section) -> list[Label]:
     """Return labels of the toe and of the places asked about."""
-    near = {"toe": (section.surface.toe[0], BLACK)} | {each.name: (each.x[0], ORANGE) for each in section.receptors}
-    ground = section.surface.height_at(np.array([x for x, _ in near.values()]))
+    toe = section.surface.toe[0]
+    near = [("toe", f"x = {toe:.4g} m", toe, BLACK)]
+    near += [(each.name, each.where, each.x[0], ORANGE) for each in section.receptors]
+    ground = section.surface.height_at(np.array([x for _, _, x, _ in near]))
     return [
-        Label(x, float(y), f"{name}, x = {x:.4g} m", colour, f"{name} at {x:.4g} m")
-        for (name, (x, colour)), y in zip(near.items(), ground, strict=True)
+        Label(x, float(y), f"{name}, {where}", colour, f"{name} at {x:.4g} m")
+        for (name, where, x, colour), y in zip(near, ground, strict=True)
     ]
 
 

@@ -19,6 +19,9 @@ def test_a_new_scene_is_the_built_in_one_under_its_own_name_with_a_front_that_su
     assert scene.identity() == load_scene("ma2023").identity() | {"slide.front_area": pytest.approx(2.25)}
     assert scene.title == file.stem
     assert f"campaign validate {name}" in scene.text
+    assert "# front_area = " in scene.text
+    assert "[[receptor]]" in scene.text
+    assert not [words for words in ("10,090", "reconstruction, ", "bisected", "0.347") if words in scene.text]
 
 
 def test_an_existing_file_is_left_as_it_is(tmp_path, capsys):
