@@ -32,7 +32,7 @@ title = {title}
 
 OF_ANY_SLOPE = {
     r"front_area = .*": '# front_area = "2.2 m^2"        # slid ground ahead of the front; if left out, height^2 / 100',
-    r"# The paper gives no other length(?:.*\n#)*.*": "# Lengths of the flats above and below it, and depth of the ground under its toe.",
+    r"# The paper gives no other length(?:.*\n#)*.*": "# The flats above and below it, and the ground under its toe.",
     r'(crest = "20 m" +)# ours: .*': r"\1# ours: as far behind it as slides may take ground, or farther",
     r'(foundation = "4 m" +)# ours: .*': r"\1# ours: as deep as slip surfaces may go, or down to rock",
     r"# The one free parameter(?:.*\n#)*.*": """\

@@ -77,7 +77,7 @@ def test_a_mesh_too_fine_to_see_is_left_out():
 def test_the_places_asked_about_are_marked_in_every_panel():
     receptors = 'receptor=[{name = "road", x = ["44 m", "48 m"]}]'
     section, *fields = panels(receptors)
-    assert [text.get_text() for text in section.texts] == ["road, x = 44 m", "toe, x = 35 m"]
+    assert [text.get_text() for text in section.texts] == ["road, x = 44 to 48 m", "toe, x = 35 m"]
     for panel in fields[:2]:
         band = panel.collections[0].get_paths()[0].get_extents()
         assert (band.x0, band.x1) == (44.0, 48.0)

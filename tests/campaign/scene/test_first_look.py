@@ -129,7 +129,7 @@ def look(peak, residual, spread=0.05):
         (0.73, 0.73, "Nearly every realization slides."),
         (0.8, 1.0, "What slides soon stops"),
         (1.0, 0.5, "Some realizations slide: 50 %"),
-        (0.9, 0.5, "Most realizations slide: 97.7 % .*more where strength varies"),
+        (0.9, 0.5, "Most realizations slide: 98 % .*more where strength varies"),
         (1.05, 0.5, "Some realizations slide: 16 % .*fewer where strength varies"),
         (1.2, 0.5, "softening can start a slide"),
         (1.2, 1.1, "No realization is expected to slide."),
