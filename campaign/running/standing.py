@@ -10,10 +10,11 @@ from campaign.scene.sections import Campaign, Slide
 from campaign.seeds import BASELINE
 from campaign.statistics.tally import Tally, tally_for
 from campaign.storage import manifest
-from campaign.storage.layout import CHANGED_INPUTS, HALF_CELL, MODELS, RESULTS
+from campaign.storage.attempts import Attempts
+from campaign.storage.layout import ATTEMPTS, CHANGED_INPUTS, HALF_CELL, MODELS, RESULTS
 from campaign.storage.lock import DirectoryLock
 from campaign.storage.record_store import RecordStore
-from campaign.terminal import counted, refresh
+from campaign.terminal import counted, listing, refresh
 
 REFRESH = 5.0
 """Seconds between two looks of `--watch`."""
@@ -70,8 +71,17 @@ def _state(directory: Path, about: dict[str, Any]) -> str:
         start = about["starts"][-1]
         return f"running on {counted(start['ranks'], 'rank')} since {start['at']}"
     if about["end"] is None:
-        return "killed; give the same command again to continue"
+        return f"{_end_without_a_word(directory)}; give the same command again to continue"
     return str(about["end"]["verdict"])
+
+
+def _end_without_a_word(directory: Path) -> str:
+    """Say why the latest start did not come to its end, also among realizations that are repeated."""
+    taken = {realization for each in directory.rglob(ATTEMPTS) for realization in Attempts(each.parent).fresh()}
+    if not taken:
+        return "killed"
+    names = ["the baseline" if realization == BASELINE else f"realization {realization}" for realization in taken]
+    return f"ended when {listing(sorted(names))} took down a rank"
 
 
 def _tally(directory: Path, about: dict[str, Any]) -> tuple[Tally, list[str]]:

@@ -63,13 +63,13 @@ class Watch:
     timeout
         Seconds that a realization may take.
     hold_against
-        Told the realization that hangs, and what it did.
+        Told the rank that hangs, in which realization, and what it did.
     clock
         In seconds.
     """
 
     def __init__(
-        self, timeout: float, hold_against: Callable[[int, str], None], clock: Callable[[], float] = time.monotonic
+        self, timeout: float, hold_against: Callable[[int, int, str], None], clock: Callable[[], float] = time.monotonic
     ) -> None:
         self._patience = patience(timeout)
         self._hold_against = hold_against
@@ -88,7 +88,7 @@ class Watch:
         for rank, (realization, begin) in list(self._begun.items()):
             if now - begin > self._patience:
                 with suppress(OSError):  # it ends all the same
-                    self._hold_against(realization, f"no answer within {self._patience:.0f} s")
+                    self._hold_against(rank, realization, f"no answer within {self._patience:.0f} s")
                 raise HungError(
                     f"Rank {rank} does not come back from realization {realization}, begun {now - begin:.0f} s ago, "
                     "so all ranks are ended. Give the same command again to continue: a realization that hangs twice "

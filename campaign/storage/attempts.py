@@ -8,7 +8,7 @@ is never held against the realization: the dataset must not depend on when a cam
 import faulthandler
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO
@@ -54,19 +54,29 @@ class Attempts:
             if counts[realization] >= PATIENCE
         }
 
-    def note(self, realization: int, trace: str) -> None:
-        """Hold something against a realization, as a crash would be."""
-        self._keep([*self._noted(), (realization, trace)])
+    def note(self, rank: int, realization: int, trace: str) -> None:
+        """Hold something against the realization that a rank has begun, as a crash would be."""
+        (self.directory / attempt_file(rank)).write_text(f"{realization}\n{trace}\n")
+
+    def fresh(self) -> list[int]:
+        """Return the realizations that took a rank down in the last start."""
+        return [realization for realization, _ in self._fresh(self._files())]
 
     def _collect(self) -> list[tuple[int, str]]:
         """Return id and trace of each crash, old and new."""
-        files = [self.directory / name for name in file_names(self.directory) if is_attempt(name)]
-        fresh = [crash for file in files for crash in _crashes(r"(-?\d{1,9})\n(.+)", file)]
+        files = self._files()
+        fresh = self._fresh(files)
         if fresh:
             self._keep([*self._noted(), *fresh])
         for file in files:
             file.unlink()
         return self._noted()
+
+    def _files(self) -> list[Path]:
+        return [self.directory / name for name in file_names(self.directory) if is_attempt(name)]
+
+    def _fresh(self, files: Iterable[Path]) -> list[tuple[int, str]]:
+        return [crash for file in files for crash in _crashes(r"(-?\d{1,9})\n(.+)", file)]
 
     def _noted(self) -> list[tuple[int, str]]:
         return _crashes(r"(-?\d{1,9}) (.+)", self._crashes) if self._crashes.is_file() else []

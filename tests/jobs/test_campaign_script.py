@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from campaign.running.standing import _state
+from campaign.storage.attempts import Attempts
+
 SCRIPT = Path(__file__).parents[2] / "jobs" / "campaign.sbatch"
 
 COMMANDS = {
@@ -15,7 +18,7 @@ COMMANDS = {
     "sbatch": 'echo "sbatch $*"',
     "campaign": """
 case $1 in
-    status) exit "$WRITTEN" ;;
+    status) echo "$STATE"; exit "$WRITTEN" ;;
     run) echo begun; $MEANWHILE; exit "$TOLD" ;;
 esac""",
 }
@@ -34,8 +37,8 @@ def job(tmp_path):
     path = {"HOME": str(tmp_path), "PATH": f"{commands}:{os.environ['PATH']}"}
     slurm = {"SLURM_JOB_ID": "7", "SLURM_NTASKS": "2", "SLURM_JOB_NODELIST": "n1"}
 
-    def start(told, written, meanwhile="true"):
-        choices = {"TOLD": str(told), "WRITTEN": str(written), "MEANWHILE": meanwhile}
+    def start(told, written, meanwhile="true", state=""):
+        choices = {"TOLD": str(told), "WRITTEN": str(written), "MEANWHILE": meanwhile, "STATE": state}
         return subprocess.Popen(["bash", SCRIPT], env=path | slurm | choices, stdout=subprocess.PIPE, text=True)
 
     return start
@@ -59,6 +62,19 @@ def test_what_the_campaign_wrote_down_counts(job, told, written, code, requeues)
     output, _ = process.communicate(timeout=20)
     assert process.returncode == code
     assert ("scontrol requeue 7" in output) == requeues
+
+
+def test_a_realization_that_takes_down_a_rank_brings_the_job_back(job, tmp_path):
+    """It does so twice at most. srun kills all ranks when one of them ends them, and says 137."""
+    attempts = Attempts(tmp_path)
+    attempts.create()
+    attempts.note(1, 3, "no answer within 5 s")
+    state = _state(tmp_path, {"end": None})
+    assert state == "ended when realization 3 took down a rank; give the same command again to continue"
+    process = job(137, 75, state=state)
+    output, _ = process.communicate(timeout=20)
+    assert process.returncode == 75
+    assert "scontrol requeue 7" in output
 
 
 def test_a_launcher_that_dies_of_the_signal_is_named_and_the_job_comes_back(job):

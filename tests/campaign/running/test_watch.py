@@ -35,4 +35,4 @@ def test_who_does_not_is_named_with_its_realization(scene):
     clock[0] += 1.0
     with pytest.raises(HungError, match="Rank 1 does not come back from realization 4, begun 411 s ago"):
         watch.look()
-    assert held == [(4, "no answer within 410 s")]
+    assert held == [(1, 4, "no answer within 410 s")]
