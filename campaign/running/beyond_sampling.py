@@ -74,7 +74,9 @@ def _with_half_cell(scene: Scene, tally: Tally, pairs: int, means: Means) -> tup
     run = SideRun(
         scene=lambda: finer,
         directory=means.home / HALF_CELL,
-        announcement=f"Discretisation error: {_again(asked, pairs)} again, with cells of {finer.numerics.cell:g} m.",
+        announcement=(
+            f"Discretisation error: {repeated_words(asked, pairs)} again, with cells of {finer.numerics.cell:g} m."
+        ),
         loss="The discretisation error cannot be estimated with half the cell.",
         known=known,
     )
@@ -84,10 +86,10 @@ def _with_half_cell(scene: Scene, tally: Tally, pairs: int, means: Means) -> tup
     return discretisation.estimate(scene, tally, made.tally), made.stopped
 
 
-def _again(asked: set[int], pairs: int) -> str:
-    """Say which of the deterministic run and the first realizations are asked for: what slid, and met no wall."""
+def repeated_words(asked: set[int], pairs: int) -> str:
+    """Say which of the deterministic run and the first `pairs` realizations are repeated: what slid and met no wall."""
     number = len(asked - {BASELINE})
     those = counted(number, "realization")
     if number < pairs:
-        those = f"{number:,} of the first {counted(pairs, 'realization')}, where nothing else slid or walls were met,"
+        those = f"{number:,} of the first {counted(pairs, 'realization')}, those that slid and met no wall,"
     return f"{those} and the deterministic run" if BASELINE in asked else those

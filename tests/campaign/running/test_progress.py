@@ -5,6 +5,7 @@ import pytest
 from tallies import filled, summary_of
 
 from campaign.record import Status
+from campaign.running.beyond_sampling import repeated_words
 from campaign.running.progress import Progress, state_line
 from campaign.running.workload import seconds_beyond_sampling
 from campaign.scene import load_scene
@@ -71,3 +72,8 @@ def test_what_does_not_slide_is_not_repeated():
     for k in (BASELINE, *range(20)):
         tally.add(summary_of(k, 0.0, Status.no_slide))
     assert seconds_beyond_sampling(load_scene("ma2023"), 1, tally, 0.5) == 2.0
+
+
+def test_what_did_not_slide_is_not_announced_to_be_repeated():
+    assert repeated_words({BASELINE, *range(8)}, 8) == "8 realizations and the deterministic run"
+    assert repeated_words({2, 3, 5}, 8) == "3 of the first 8 realizations, those that slid and met no wall,"
