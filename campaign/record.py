@@ -36,13 +36,13 @@ FAILED = frozenset({Status.timeout, Status.diverged, Status.left_domain, Status.
 """Without a result: counted, reported, and never part of a statistic."""
 
 SLID = frozenset({Status.slid, Status.not_settled, Status.reached_wall})
-"""Slides, whose run-out is a lower bound where the front had not settled yet or a wall of the model hindered it."""
+"""Slides, whose run-out is a lower bound where the front had not settled yet or the wall ahead stopped it."""
 
 UNHINDERED = SLID - {Status.reached_wall}
-"""Slides whose run-out is the slope's and not that of the model's walls."""
+"""Slides that the wall ahead has not stopped."""
 
 LOWER_BOUND = SLID - {Status.slid}
-"""Slides whose front was still on its way, or was stopped by a wall: they may come farther than they did."""
+"""Slides whose front was still on its way, or was stopped by the wall ahead: they may come farther than they did."""
 
 USABLE = SLID | {Status.no_slide}
 """With a result: a slope that does not slide has a run-out of zero."""

@@ -60,7 +60,7 @@ def farther_advance(history: MarchHistory, surface: Surface, criteria: SlideCrit
     if history.end in (MarchEnd.AT_REST, MarchEnd.STANDS):
         return 0.0
     speeds = front_speeds(history.time, history.runout_mass, criteria)
-    if criteria.front == "tip" or any(history.walls) or not speeds[-1] < PAST_ITS_PEAK * speeds.max():
+    if criteria.front == "tip" or history.walls.right or not speeds[-1] < PAST_ITS_PEAK * speeds.max():
         return np.nan
     slid = observables.is_displaced(history.particles, history.reference, criteria)
     sliding = Particles(*(array[slid] for array in history.reference))

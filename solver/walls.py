@@ -10,9 +10,13 @@ NEAR = 1.0  # cells: the nodes of a wall hold the ground of its cells
 
 
 class Walls(NamedTuple):
-    """Which walls a slide has reached."""
+    """Which walls a slide has reached.
 
-    left: bool = False  # at the crest
+    The one ahead stops it. That behind the crest holds ground back that would follow, which changes the run-out in
+    either direction: a slide of 15.9 m ran 15.5 m with more ground behind the crest, another one of 11.5 m 18.3 m.
+    """
+
+    left: bool = False  # behind the crest
     right: bool = False  # ahead of the slide
 
     def __or__(self, other: "Walls") -> "Walls":
@@ -23,8 +27,9 @@ class Walls(NamedTuple):
 def reached_walls(
     particles: Particles, reference: Particles, width: float, cell_size: float, criteria: SlideCriteria
 ) -> Walls:
-    """Return the walls near which ground moves as far as a slope that has failed: now or, at the crest, before it left.
+    """Return the walls near which ground moves as far as a slope that has failed.
 
+    Near the wall ahead is what is there now, near that behind the crest also what was there before it left.
     Less is the fringe of a slide: on a slope of 15 m, walls next to which the ground moves up to 0.7 m change the
     run-out by 0.5 % at most, a wall next to which it moves 2 m by 1.2 %.
 

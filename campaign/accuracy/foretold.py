@@ -45,8 +45,8 @@ class Estimate(NamedTuple):
     total: Interval
 
     def up_to(self, uppers: Iterable[float]) -> "Estimate":
-        """Return it with other upper bounds."""
-        return Estimate(*(each._replace(upper=upper) for each, upper in zip(self, uppers, strict=True)))
+        """Return it as at least so much, with other upper bounds."""
+        return Estimate(*(each._replace(upper=upper, is_least=True) for each, upper in zip(self, uppers, strict=True)))
 
 
 class Foretold:
@@ -89,7 +89,9 @@ class Foretold:
             return exact_interval(round(beyond), self.n, self._confidence)
 
         found = self._estimate(lambda outcomes: np.mean(outcomes > distance, axis=1), plain)
-        return found.up_to(min(1.0, each.upper + self._cut_short) for each in found)
+        if self._cut_short:
+            found = found.up_to(min(1.0, each.upper + self._cut_short) for each in found)
+        return found
 
     def quantile(self, share: float) -> Estimate:
         """Return the run-out in m within which a share of the slides stops."""

@@ -34,7 +34,7 @@ def _outcome(made: Trial) -> str:
     moves = "still moves at the end of the run" + (", behind its front" if record.status is Status.slid else "")
     how = f"comes to rest after {made.rest:.2g} s" if isfinite(made.rest) else moves
     is_hindered = record.status is Status.reached_wall
-    stopped = ", and a wall of the model hindered it" if is_hindered else ""
+    stopped = ", and the wall ahead stopped it" if is_hindered else ""
     where = f"its front is {at_least(record)}{made.runout:.3g} m beyond the toe, at x = {made.front:.4g} m{stopped}"
     return f"The slope slides and {how}; {where}.{_receptors(made)}"
 

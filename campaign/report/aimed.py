@@ -4,7 +4,7 @@ from campaign.accuracy.wording import error_of
 from campaign.results.accuracy import Reached, reached_of
 from campaign.results.results import Results
 from campaign.scene.units import PRESSURE, shown_in_unit
-from campaign.statistics.wording import chances, estimated_chance, metres
+from campaign.statistics.wording import chances, estimated_chance, least, metres
 from campaign.terminal import counted, listing
 
 
@@ -44,9 +44,10 @@ def _distribution(reached: Reached) -> str:
     """Say how far single slides run on the finest mesh, and how probably they reach the places asked about."""
     if not reached.quantiles:
         return ""
+    totals = {share: each.total for share, each in reached.quantiles.items()}
     within = [
-        f"{100 * share:g} % of the slides stop within {each.total.estimate:.2f} m ({metres(each.total)})"
-        for share, each in reached.quantiles.items()
+        f"{100 * share:g} % of the slides stop within {least(total)}{total.estimate:.2f} m ({metres(total)})"
+        for share, total in totals.items()
     ]
     there = [
         f"{estimated_chance(each.total)} ({chances(each.total)}) come as far as {name}"
@@ -66,7 +67,10 @@ def _cut_short(reached: Reached) -> str:
     count, of = reached.cut_short[0], reached.counts[0]
     if not count:
         return ""
-    return f"It is a lower bound: {count} of {counted(of, 'run')} on that mesh met a wall or still moved at the end."
+    return (
+        f"It is a lower bound: {count} of {counted(of, 'run')} on that mesh met the wall ahead, or their fronts may "
+        "have come farther after the end."
+    )
 
 
 def models_in_words(reached: Reached) -> str:

@@ -7,31 +7,44 @@ from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from campaign.record import SLID, Status
 from campaign.report import estimates
 from campaign.report.aimed import from_all_models, is_aimed
-from campaign.report.cut_short import Cause, causes, in_one_clause
+from campaign.report.cut_short import Cause, causes, disturbed, in_one_clause
 from campaign.results.results import Results
 from campaign.simulation.flags import with_remedy
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import results_to_bound
 from campaign.statistics.stopping import RARE
 from campaign.statistics.total import has_mesh_error
-from campaign.statistics.wording import at_least, chance, chance_of_slide, chances, estimated_chance, metres, so_far
+from campaign.statistics.wording import (
+    at_least,
+    chance,
+    chance_of_slide,
+    chances,
+    estimated_chance,
+    least,
+    metres,
+    so_far,
+)
 from campaign.terminal import as_sentence, counted
 
 OUTCOMES = {
-    Status.slid: "slid, and the front came to rest",
+    Status.slid: "slid and came to rest",
     Status.no_slide: "did not slide (nothing displaced farther than slide.failed)",
     Status.not_settled: "slid, and the front may have come farther after the end time; the run-out is a lower bound",
-    Status.reached_wall: "slid as far as a wall of the model; the run-out is a lower bound",
+    Status.reached_wall: "slid as far as the wall ahead of the slope; the run-out is a lower bound",
     Status.timeout: "failed: took too long",
     Status.diverged: "failed: diverged",
     Status.left_domain: "failed: left the domain",
     Status.crashed: "failed: crashed",
 }
 
+
+FRONT_SETTLED = "slid; the front comes no farther, but ground behind it still moved at the end time"
+"""How slides ended that have not come to rest and yet have their run-out."""
 
 VARYING = re.compile(r"[\d.]+(?= s\b| ?%)")
 """Numbers of a reason that are those of one realization."""
@@ -66,18 +79,21 @@ def answer(results: Results) -> str:
 
 def outcomes(results: Results) -> list[Outcome]:
     """Return how the realizations ended, with the distinct reasons of failures and remarks on slides."""
-    return [
-        Outcome(count, OUTCOMES[each], _told_of(results, each, count))
-        for each, count in results.by_status().items()
-        if count
-    ]
+    ways = {OUTCOMES[status]: results.has_status([status]) for status in Status}
+    slid, at_rest = ways[OUTCOMES[Status.slid]], np.isfinite(results.data["settle_time"].values)
+    ways = {OUTCOMES[Status.slid]: slid & at_rest, FRONT_SETTLED: slid & ~at_rest} | {
+        meaning: which for meaning, which in ways.items() if meaning != OUTCOMES[Status.slid]
+    }
+    counts = {meaning: int(np.count_nonzero(which)) for meaning, which in ways.items()}
+    return [Outcome(n, meaning, _told_of(results, ways[meaning], n)) for meaning, n in counts.items() if n]
 
 
-def _told_of(results: Results, status: Status, count: int) -> list[str]:
+def _told_of(results: Results, which: NDArray[np.bool_], count: int) -> list[str]:
     """Return what is said of realizations that ended in one way, and of how many, if that is not all."""
-    reasons = map(str, results.data["reason"].values[results.has_status([status])])
+    reasons = map(str, results.data["reason"].values[which])
     # What is said of slides is a sentence for each matter, of which a slide may have several; a failure has one reason.
-    kinds = alike(chain.from_iterable(map(SENTENCES.split, reasons)) if status in SLID else reasons)
+    are_slides = bool(results.has_slid[which].all())
+    kinds = alike(chain.from_iterable(map(SENTENCES.split, reasons)) if are_slides else reasons)
     return [
         f"{'' if n == count else f'In {n:,} of them: '}{with_remedy(reason, results.scene)}"
         for reason, n in kinds.items()
@@ -133,22 +149,23 @@ def _not_yet_stable(results: Results) -> str:
 
 def _slides(results: Results) -> list[str]:
     """Say how far slides come, and what is open of that."""
-    return [_runout(results), _cut_short(results, causes(results)), _spread(results), _farthest(results)]
+    cut_short = _cut_short(results, causes(results))
+    return [_runout(results), cut_short, disturbed(results), _spread(results), _farthest(results)]
 
 
 def _runout(results: Results) -> str:
     """Say how far the slide runs on average, with the total interval and what it consists of."""
     total, mean = estimates.total_runout(results), estimates.mean_runout(results)
-    least = "" if results.outcomes.bound_the_mean else "at least "
     if mean.n == 1:
-        return f"That slide ran {least}{mean.estimate:.2f} m. It takes two slides or more to say how sure that is."
+        return (
+            f"That slide ran {least(mean)}{mean.estimate:.2f} m. It takes two slides or more to say how sure that is."
+        )
     given = " where it slides" if mean.n < results.outcomes.usable else ""
     if is_aimed(results):
-        return (
-            f"The slides of these cells ran {least}{mean.estimate:.2f} m on average, sampling ±{mean.half_width:.2f} m."
-        )
+        ran = f"{least(mean)}{mean.estimate:.2f} m"
+        return f"The slides of these cells ran {ran} on average, sampling ±{mean.half_width:.2f} m."
     return (
-        f"The slide runs {least}{total.estimate:.2f} m on average{given}, {metres(total)} with "
+        f"The slide runs {least(total)}{total.estimate:.2f} m on average{given}, {metres(total)} with "
         f"{100 * results.confidence:g} % confidence: {_parts(results, mean)}."
     )
 
@@ -180,13 +197,13 @@ def _spread(results: Results) -> str:
     std, runouts = estimates.std_runout(results), results.slide_runouts
     if runouts.size < 2:
         return ""
-    is_bounded, least = results.outcomes.bound_the_mean, "at least " if results.outcomes.cut_short else ""
+    is_bounded, of_longest = results.outcomes.bound_the_mean, "at least " if results.outcomes.cut_short else ""
     interval = f" ({metres(std)})" if std.is_known and is_bounded else ""
     came = "" if is_bounded else f"{so_far(results.outcomes)},"
     of_shortest = "at least " if results.outcomes.is_cut_short[runouts.argmin()] else ""
     return (
         f"Single slides{came} scatter by a standard deviation of {std.estimate:.2f} m{interval}; the shortest ran "
-        f"{of_shortest}{runouts.min():.2f} m, the longest {least}{runouts.max():.2f} m."
+        f"{of_shortest}{runouts.min():.2f} m, the longest {of_longest}{runouts.max():.2f} m."
     )
 
 
@@ -194,8 +211,8 @@ def _farthest(results: Results) -> str:
     far = estimates.total_quantile(results, estimates.FAR)
     if np.isnan(far.upper):
         return ""
-    least = "a distance of at least " if np.isinf(far.upper) else ""
-    return f"{100 * estimates.FAR:g} % of the slides stop within {least}{far.estimate:.2f} m ({metres(far)})."
+    within = f"{'a distance of ' if far.is_least else ''}{least(far)}{far.estimate:.2f} m"
+    return f"{100 * estimates.FAR:g} % of the slides stop within {within} ({metres(far)})."
 
 
 def _comparison(results: Results) -> str:

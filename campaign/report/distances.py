@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from campaign.report import estimates
 from campaign.results.results import Results
@@ -23,6 +24,8 @@ class Curve(NamedTuple):
         In m from the toe; 0 and the run-outs of the slides.
     estimate, lower, upper : ndarray
         With its interval.
+    is_least : bool ndarray
+        Whether slides that were cut short may add to the estimate.
     n : int
         Realizations behind them.
     """
@@ -31,12 +34,15 @@ class Curve(NamedTuple):
     estimate: Array
     lower: Array
     upper: Array
+    is_least: NDArray[np.bool_]
     n: int
 
     def at(self, distance: float) -> Interval:
         """Return the probability of a run-out beyond a distance (m)."""
         k = max(0, int(np.searchsorted(self.distance, distance, side="right")) - 1)
-        return Interval(float(self.estimate[k]), float(self.lower[k]), float(self.upper[k]), self.n)
+        return Interval(
+            float(self.estimate[k]), float(self.lower[k]), float(self.upper[k]), self.n, bool(self.is_least[k])
+        )
 
     def words(self, distance: float) -> str:
         """Return the probability of a run-out beyond a distance (m) with its interval."""
@@ -70,7 +76,7 @@ def exceedance_curve(results: Results, given_sliding: bool = False) -> Curve:
     distances = np.concatenate([[0.0], np.unique(results.slide_runouts)])
     shares = [probability(results, distance) for distance in distances]
     estimate, lower, upper = np.array([share[:3] for share in shares]).T
-    return Curve(distances, estimate, lower, upper, shares[0].n)
+    return Curve(distances, estimate, lower, upper, np.array([share.is_least for share in shares]), shares[0].n)
 
 
 def table(curves: Curves) -> list[Row]:

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from campaign.report.wording import bounds, number
-from campaign.statistics.intervals import Sample, is_least_quantile, quantile_interval
+from campaign.statistics.intervals import Sample, quantile_interval
 from campaign.statistics.receptors import QUANTILES
+from campaign.statistics.wording import least
 
 
 class Distribution(NamedTuple):
@@ -30,6 +31,5 @@ def distribution(
     columns: list[str] = []
     for share in QUANTILES:
         interval = quantile_interval(finite, share, confidence, cut)
-        is_open = is_least_quantile(finite, share, cut) and not np.isfinite(interval.upper)
-        columns += [f"{'at least ' if is_open else ''}{number(interval.estimate, unit)}", bounds(interval, unit)]
+        columns += [f"{least(interval)}{number(interval.estimate, unit)}", bounds(interval, unit)]
     return Distribution(name, *columns)

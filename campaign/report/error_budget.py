@@ -6,19 +6,19 @@ import numpy as np
 
 from campaign.record import FAILED, UNHINDERED, Status
 from campaign.report import aimed, estimates
-from campaign.report.cut_short import causes
+from campaign.report.cut_short import WALLS, causes, reach_the_wall_behind
 from campaign.results.accuracy import reached_of
 from campaign.results.results import Results
 from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import failure_bounds
 from campaign.statistics.total import has_mesh_error
-from campaign.statistics.wording import at_least, chance, chances, estimated_chance, metres, so_far
+from campaign.statistics.wording import at_least, chance, chances, estimated_chance, least, metres, so_far
 from campaign.terminal import counted
 
 NOT_ESTIMATED = "not estimated"
 
-LOST = dict.fromkeys(FAILED, "failed") | {Status.reached_wall: "reached a wall"}
+LOST = dict.fromkeys(FAILED, "failed") | {Status.reached_wall: "reached the wall ahead"}
 """Ends of a run after which its run-out is not that of the slope, in words."""
 
 NO_RESULT = "no realization with a result"
@@ -79,10 +79,9 @@ def _runout(results: Results) -> list[Row]:
     if mean.n == 0:
         return []
     total, spread = estimates.total_runout(results), metres(std) if std.is_known else ""
-    least = "" if results.outcomes.bound_the_mean else "at least "
     holds = "sampling and mesh" if has_mesh_error(results.discretisation) else "sampling alone"
     return [
-        Row("Total", f"mean run-out of a slide, {holds}", f"{least}{total.estimate:.2f} m", metres(total), n),
+        Row("Total", f"mean run-out of a slide, {holds}", f"{least(total)}{total.estimate:.2f} m", metres(total), n),
         Row("Sampling", f"mean run-out of a slide{came}", f"{mean.estimate:.2f} m", metres(mean), n),
         Row("Sampling", f"standard deviation of a slide{came}", _known(std.estimate, ".2f", " m"), spread, n),
     ]
@@ -105,9 +104,10 @@ def _probability(name: str, share: Interval) -> Row:
 
 
 def _cut_short(results: Results) -> list[Row]:
-    """Return what makes a mean a lower bound."""
-    slides = str(results.outcomes.slides)
-    return [Row(each.source, "mean run-out of a slide", "at least", each.told, slides) for each in causes(results)]
+    """Return what makes a mean a lower bound, and what disturbs it in either direction."""
+    slides, name, behind = str(results.outcomes.slides), "mean run-out of a slide", reach_the_wall_behind(results)
+    told = [Row(each.source, name, "at least", each.told, slides) for each in causes(results)]
+    return told + ([Row(WALLS, name, "longer or shorter", behind, slides)] if behind else [])
 
 
 def _failures(results: Results) -> list[Row]:
@@ -124,7 +124,7 @@ def _failures(results: Results) -> list[Row]:
 def _whatever_happened(name: str, count: int, usable: int, failed: int, undecided: int = 0) -> Row:
     """Return what a share of all realizations may be: slides cut short before they count are as unknown as failures."""
     lowest, highest = failure_bounds(count, usable - undecided, failed + undecided)
-    bounds = chances(Interval(lowest, lowest, highest, usable))
+    bounds = chances(Interval(lowest, lowest, highest, usable, is_least=lowest < highest))
     also, them = (" or cut short", f", {undecided} cut short") if undecided else ("", "")
     asked = f"{name}, whatever the failed{also} would have done"
     return Row("Failures", asked, f"{failed} failed{them}", bounds, str(usable + failed))
@@ -166,9 +166,9 @@ def _why_no_pair(results: Results, found: Discretisation) -> str:
     if not slid:
         return f"none of the first {counted(found.differences.size, 'realization')} slid"
     if not results.has_status(UNHINDERED)[repeated].any():
-        walls = "a wall stopped the one that slid" if slid == 1 else f"walls stopped all {slid} that slid"
+        walls = f"the wall ahead stopped {'the one' if slid == 1 else f'all {slid}'} that slid"
         return f"of the first {counted(found.differences.size, 'realization')} {walls}"
-    return "with half the cell, none slid to its end without a failure or a wall in its way"
+    return "with half the cell, none slid to its end without a failure or the wall ahead in its way"
 
 
 def _release(results: Results) -> Row:

@@ -1,10 +1,8 @@
 """The numbers of the answer with their intervals, a function for each: for words, tables and figures alike."""
 
-import math
-
 from campaign.results.results import Results
 from campaign.statistics import proportions
-from campaign.statistics.intervals import Interval, is_least_quantile, mean_interval, quantile_interval, std_interval
+from campaign.statistics.intervals import Interval, mean_interval, quantile_interval, std_interval
 from campaign.statistics.total import total_interval, total_mean
 
 FAR = 0.95
@@ -17,8 +15,12 @@ def slide_probability(results: Results) -> Interval:
 
 
 def mean_runout(results: Results) -> Interval:
-    """Return the mean run-out of the slides in m, with sampling error alone."""
-    return mean_interval(results.slide_runouts, results.confidence)
+    """Return the mean run-out of the slides in m, with sampling error alone.
+
+    It is at least so much where more than a few slides were cut short.
+    """
+    mean = mean_interval(results.slide_runouts, results.confidence)
+    return mean._replace(is_least=not results.outcomes.bound_the_mean)
 
 
 def total_runout(results: Results) -> Interval:
@@ -35,18 +37,11 @@ def std_runout(results: Results) -> Interval:
 
 
 def quantile_runout(results: Results, share: float) -> Interval:
-    """Return the distance in m within which a share of the slides stops; those cut short may come any farther."""
+    """Return the distance in m within which a share of the slides stops; those cut short may come any farther.
+
+    It is at least so much where that would change it, and has no upper bound where nothing is known of one.
+    """
     return quantile_interval(results.slide_runouts, share, results.confidence, results.outcomes.is_cut_short)
-
-
-def is_least(results: Results, share: float) -> bool:
-    """Whether that distance would be larger, had slides that were cut short come farther."""
-    return is_least_quantile(results.slide_runouts, share, results.outcomes.is_cut_short)
-
-
-def is_open(results: Results, distance: Interval, share: float) -> bool:
-    """Whether slides that were cut short leave that distance without an upper bound."""
-    return is_least(results, share) and not math.isfinite(distance.upper)
 
 
 def total_quantile(results: Results, share: float) -> Interval:

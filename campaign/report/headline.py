@@ -17,7 +17,7 @@ from campaign.results.results import Results
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import results_to_bound
 from campaign.statistics.total import has_mesh_error
-from campaign.statistics.wording import chance, chance_of_slide, chances, estimated_chance
+from campaign.statistics.wording import chance, chance_of_slide, chances, estimated_chance, least
 from campaign.terminal import counted
 
 
@@ -112,8 +112,9 @@ def _runouts(results: Results) -> list[Tile]:
 def _runout(results: Results, name: str, share: float) -> Tile:
     total = estimates.total_quantile(results, share)
     form = ".1f" if total.estimate >= 1 else ".2f"
-    least = "at least " if estimates.is_open(results, total, share) else ""
-    return Tile(name, f"{least}{total.estimate:{form}} m", bounds(total, "m", form), _remark(results, total, share))
+    return Tile(
+        name, f"{least(total)}{total.estimate:{form}} m", bounds(total, "m", form), _remark(results, total, share)
+    )
 
 
 def _remark(results: Results, total: Interval, share: float) -> str:
@@ -123,9 +124,9 @@ def _remark(results: Results, total: Interval, share: float) -> str:
 
 
 def _bounds_known(results: Results, total: Interval, share: float) -> str:
-    if estimates.is_open(results, total, share):
+    if total.is_least and not math.isfinite(total.upper):
         return f"lower bound: {in_one_clause(causes(results))}"
-    if estimates.is_least(results, share):
+    if total.is_least:
         return f"the interval allows for {counted(results.outcomes.cut_short, 'slide')} cut short"
     needed = results_to_bound(1 - max(share, 1 - share), results.confidence)
     return f"both bounds need {needed} slides" if math.isnan(total.half_width) else ""

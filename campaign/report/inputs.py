@@ -134,7 +134,7 @@ def _largest(results: Results) -> str:
         return ""
     slides, whole = len(found.realizations), min(effect.n for effect in known.values())
     of_all = f"Of {counted(len(known), 'input')}, each raised alone by {100 * MORE:g} %,"
-    unhindered = f", {whole} or more without a wall or a failure in the way" if whole < slides else ""
+    unhindered = f", {whole} or more without the wall ahead or a failure in the way" if whole < slides else ""
     again = f"{counted(slides, 'slide')} {'was' if slides == 1 else 'were'} computed again for each{unhindered}."
     standing = _stood(results, found)
     if not found.clear():
@@ -201,11 +201,13 @@ def _left_out(results: Results, ranking: Ranking | None) -> str:
     if ranking is not None and given.slides - ranking.correlation[0].n >= given.hindered > 0:
         told.append(
             f"What the soil makes of the run-out is told without the {given.hindered:,} of "
-            f"{counted(given.slides, 'slide')} that a wall of the model stopped; with their whole run-outs it may be "
+            f"{counted(given.slides, 'slide')} that the wall ahead stopped; with their whole run-outs it may be "
             "another."
         )
     if ranking is not None and unsettled:
-        told.append(f"{counted(unsettled, 'slide')} that still moved at the end count as far as they came.")
+        told.append(
+            f"{counted(unsettled, 'slide')} whose fronts may have come farther after the end count as far as they came."
+        )
     return " ".join(told)
 
 
@@ -222,7 +224,7 @@ def _share(explained: float) -> str:
 def _nothing(results: Results) -> str:
     """Say why nothing is known of the inputs."""
     slides, stopped = results.outcomes.unhindered, results.outcomes.hindered
-    which = " that no wall stops" if stopped else ""
+    which = " that the wall ahead does not stop" if stopped else ""
     matters = "which property of the soil matters"
     soil = f"It takes {sensitivity.FEWEST} slides{which} to say {matters}, and there are {slides:,}"
     if slides >= sensitivity.FEWEST:
@@ -237,7 +239,7 @@ def _why_no_effects(results: Results) -> str:
     if not results.outcomes.slides:
         return "what the inputs do is told by slides computed again, and nothing slid"
     if results.outcomes.hindered == results.outcomes.slides:
-        return "what the inputs do is told by slides that no wall stops, and walls stopped all of them"
+        return "what the inputs do is told by slides that the wall ahead does not stop, and it stopped all of them"
     return "the slides to say what the inputs do were not computed again"
 
 

@@ -44,16 +44,16 @@ def _moved(results: Results, quantity: str) -> Distribution:
 def _would_be_more(results: Results, quantity: str) -> dict[str, NDArray[np.bool_]]:
     """Return in which slides there would be more of a quantity, by the reason; a slide is in one of them.
 
-    A wall that stops a slide keeps ground behind it from following, what moves behind the crest may reach the wall
-    there, and ground behind the front may still move at the end.
+    The wall ahead that stops a slide keeps ground behind it from following, behind the one behind the crest there is no
+    more that could move, and ground behind the front may still move at the end.
     """
     values, moves = results.of_slides(quantity), np.isnan(results.of_slides("settle_time"))
     wall = surface_of(results.scene.geometry).crest_x if quantity in BEHIND_CREST else np.inf
-    at_wall = values > wall - 0.5 * results.scene.numerics.cell
+    at_wall = results.reached_behind | (values > wall - 0.5 * results.scene.numerics.cell)
     is_stopped, is_known = results.outcomes.is_hindered, np.isfinite(values)
     return {
-        "that a wall stopped": is_known & is_stopped,
-        "to the wall of the model": is_known & at_wall & ~is_stopped,
+        "as far back as the wall behind the crest": is_known & at_wall,
+        "that the wall ahead stopped": is_known & is_stopped & ~at_wall,
         "still moving at the end": is_known & moves & ~at_wall & ~is_stopped,
     }
 
@@ -69,7 +69,7 @@ def _rest(results: Results) -> Distribution:
         is_later = np.isnan(estimate)
         columns += ["later than the end" if is_later else number(estimate, "s")]
         columns += ["" if is_later else bounds(Interval(estimate, lower, upper, interval.n), "s")]
-    remark = f"in {counted(stopped, 'slide')} with a wall in the way" if stopped else ""
+    remark = f"in {counted(stopped, 'slide')} with the wall ahead in the way" if stopped else ""
     return Distribution(REST, *columns)._replace(remark=remark)
 
 

@@ -16,8 +16,10 @@ from campaign.statistics.receptors import (
     AHEAD,
     EFFECTS,
     REACHED,
+    RISE,
     ReceptorEstimate,
     receptor_estimates,
+    still_moves,
 )
 from campaign.statistics.wording import chances, estimated_chance
 from campaign.terminal import counted, listing
@@ -28,10 +30,8 @@ ARRIVALS = {
 }
 """When something comes, and what that is called."""
 
-RISE = "receptor_deposit"
-
 NEAR_A_WALL = 5.0
-"""In cells: distance of a place from a wall, up to which the wall has a part in what is seen there."""
+"""In cells: distance of a place from the wall ahead, up to which that has a part in what is seen there."""
 
 
 class Reach(NamedTuple):
@@ -60,7 +60,9 @@ class Place(NamedTuple):
     ahead : list of Distribution
         What that ground does.
     thrown_back : str
-        That a wall of the model has a part in it, "" if none has.
+        That the wall ahead has a part in it, "" if it has none.
+    so_far : str
+        In how many slides ground still moved at the end, "" if in none.
     """
 
     name: str
@@ -71,6 +73,7 @@ class Place(NamedTuple):
     pushed: str
     ahead: list[Distribution]
     thrown_back: str
+    so_far: str
 
 
 def reach_estimates(results: Results) -> list[Reach]:
@@ -117,25 +120,50 @@ def _place(results: Results, receptor: Receptor, reach: list[ReceptorEstimate]) 
     ]
     data = results.data.sel(receptor=name)
     with_front, with_ahead = _has_front(results, receptor), data["receptor_ahead_depth"].values > 0.0
-    effects = _distributions(data, ARRIVALS | EFFECTS, with_front, results.confidence)
-    ahead = _distributions(data, AHEAD, with_ahead, results.confidence)
+    moves, named = still_moves(data), {**ARRIVALS, **EFFECTS}
+    effects = _distributions(data, named, with_front, results.confidence, moves)
+    # Once the front has come, what came ahead of it is known.
+    ahead = _distributions(data, AHEAD, with_ahead, results.confidence, moves & ~with_front)
     alone = {RISE: f"{EFFECTS[RISE]} where the front does not come"}
-    ahead += _distributions(data, alone, with_ahead & ~with_front, results.confidence)
+    ahead += _distributions(data, alone, with_ahead & ~with_front, results.confidence, moves)
     slides, pushed = int(np.count_nonzero(with_front)), _pushed(with_ahead, with_front)
-    thrown_back = _thrown_back(results, receptor, with_front | with_ahead)
-    return Place(name, receptor.where, probabilities, slides, effects, pushed, ahead, thrown_back)
+    comes = with_front | with_ahead
+    so_far = _so_far(comes, moves)
+    return Place(
+        name,
+        receptor.where,
+        probabilities,
+        slides,
+        effects,
+        pushed,
+        ahead,
+        _thrown_back(results, receptor, comes),
+        so_far,
+    )
+
+
+def _so_far(comes: NDArray[np.bool_], moves: NDArray[np.bool_]) -> str:
+    """Say in how many of the slides that come to a place ground still moved at the end, "" if in none."""
+    moving, slides = int(np.count_nonzero(comes & moves)), counted(int(np.count_nonzero(comes)), "slide")
+    if not moving:
+        return ""
+    return (
+        f"In {moving:,} of the {slides} that come here, ground somewhere still moved when the run ended: the largest "
+        "depths, velocities, fluxes and pressures are lower bounds there, and the rise of the ground is not the final "
+        "one. Raise numerics.end_time."
+    )
 
 
 def _thrown_back(results: Results, receptor: Receptor, comes: NDArray[np.bool_]) -> str:
-    """Say that a wall near a receptor has stopped slides that come there, "" if none has."""
-    near, far = receptor.x
-    away = min(near, surface_of(results.scene.geometry).width - far)
+    """Say that the wall ahead is near a receptor and has stopped slides that come there, "" if it has none."""
+    far = receptor.x[1]
+    away = surface_of(results.scene.geometry).width - far
     stopped = int(np.count_nonzero(comes & results.has_status([Status.reached_wall])))
     if not stopped or away > NEAR_A_WALL * results.scene.numerics.cell:
         return ""
     of_those = f"{stopped:,} of the {counted(int(np.count_nonzero(comes)), 'slide')} that come here"
     return (
-        f"A wall of the model, {away:g} m from here, stopped {of_those}. Ground piles up at it and is thrown back, so "
+        f"The wall ahead, {away:g} m from here, stopped {of_those}. Ground piles up at it and is thrown back, so "
         "that depths, velocities and pressures are not those of the slope alone."
     )
 
@@ -152,9 +180,22 @@ def _pushed(with_ahead: NDArray[np.bool_], with_front: NDArray[np.bool_]) -> str
 
 
 def _distributions(
-    data: xr.Dataset, named: Mapping[str, str], where: NDArray[np.bool_], confidence: float
+    data: xr.Dataset,
+    named: Mapping[str, str],
+    where: NDArray[np.bool_],
+    confidence: float,
+    may_grow: NDArray[np.bool_],
 ) -> list[Distribution]:
-    """Return what some quantities are in some realizations; nothing without any."""
+    """Return what some quantities are in some realizations; nothing without any.
+
+    Those of which the largest is told are lower bounds where they `may_grow`.
+    """
     if not where.any():
         return []
-    return [distribution(name, data[each].values[where], data[each].units, confidence) for each, name in named.items()]
+    of_largest = {*EFFECTS, *AHEAD} - {RISE}
+    return [
+        distribution(
+            name, data[each].values[where], data[each].units, confidence, (may_grow & (each in of_largest))[where]
+        )
+        for each, name in named.items()
+    ]

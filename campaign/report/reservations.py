@@ -5,7 +5,7 @@ import numpy as np
 from campaign.record import FAILED, FINAL_RUNOUT, SLID, Status
 from campaign.report import estimates
 from campaign.report.answer import why_failed
-from campaign.report.cut_short import END, WALLS, causes
+from campaign.report.cut_short import END, WALLS, bounded_behind, causes
 from campaign.report.raised import goes_ahead, least_rise
 from campaign.results.results import Results
 from campaign.statistics.doubts import detached_fronts, doubts
@@ -17,7 +17,14 @@ def reasons_for_doubt(results: Results) -> list[str]:
     """Return sentences on why the run-outs or their intervals may not hold."""
     volumes, mass_runouts = results.of_slides("detached_volume"), results.of_slides(FINAL_RUNOUT["mass"])
     apart = detached_fronts(volumes, mass_runouts, results.scene.front_area, results.front)
-    slid = [_hindered(results), *doubts(results.runouts), *apart, _ahead(results), _moving(results)]
+    slid = [
+        _hindered(results),
+        bounded_behind(results),
+        *doubts(results.runouts),
+        *apart,
+        _ahead(results),
+        _moving(results),
+    ]
     told = [_failed(results), _beginning(results), *slid]
     return [sentence for sentence in told if sentence]
 
@@ -77,7 +84,7 @@ def _moving(results: Results) -> str:
     for cause in causes(results):
         if cause.source == END:
             bounds = "its run-out is a lower bound" if cause.slides == 1 else "their run-outs are lower bounds"
-            return f"{cause.told} (numerics.end_time): {bounds}. {_last_advance(results)}"
+            return f"{as_sentence(f'{cause.told} (numerics.end_time): {bounds}')} {_last_advance(results)}"
     return ""
 
 

@@ -130,10 +130,10 @@ def _estimates(name: str, dim: str, estimates: Sequence[Estimate], units: str, a
 def _estimates_of(data: xr.Dataset, name: str, dim: str) -> dict[Any, Estimate]:
     if name not in data:
         return {}
-    n = int(data["multilevel_runout_mean"].attrs["n"])
+    n, is_least = int(data["multilevel_runout_mean"].attrs["n"]), bool(data["model_cut_short"].values.any())
     columns = [data[f"{name}{suffix}"].values.tolist() for suffix in ("", "_ci", "_total_ci")]
     return {
-        label: Estimate(*(Interval(value, lower, upper, n) for lower, upper in bounds))
+        label: Estimate(*(Interval(value, lower, upper, n, is_least) for lower, upper in bounds))
         for label, value, *bounds in zip(data[dim].values.tolist(), *columns, strict=True)
     }
 

@@ -10,11 +10,27 @@ from campaign.statistics.total import TOTAL, total_mean
 BOUNDS = ("checkpoint", "bound")
 EXACT = "(Clopper and Pearson)"
 
+CUT_SHORT = (
+    "a slide that the wall ahead or the end of the run has cut short (status reached_wall, not_settled) counts with "
+    "the distance it came"
+)
+"""What numbers of run-outs make of slides that may have come farther."""
+
+OPEN = f"{CUT_SHORT}, so that the estimate is a lower bound; for the upper bound of the interval it goes beyond"
+
+COMMENTS = {
+    "exceedance": OPEN,
+    "exceedance_given_sliding": OPEN,
+    "runout_mean": CUT_SHORT,
+    "runout_variance": CUT_SHORT,
+}
+"""What is said of the numbers at the checkpoints."""
+
 
 def of_history(history: ConvergenceHistory) -> Variables:
     """Return the estimates at every checkpoint."""
     at, beyond = "checkpoint", "beyond that of the deterministic run"
-    return {
+    variables = {
         "n": variable(at, history.n, "1", "realizations with a result, of a slide or not", "i4"),
         "n_slides": variable(at, history.n_slides, "1", "realizations that slid", "i4"),
         "slide_probability": variable(at, history.slide_probability, "1", "probability of a slide"),
@@ -42,6 +58,9 @@ def of_history(history: ConvergenceHistory) -> Variables:
         ),
         "predicted_n": variable(at, history.predicted_n, "1", "realizations expected to satisfy the rule"),
     }
+    for name, comment in COMMENTS.items():
+        variables[name].attrs["comment"] = comment
+    return variables
 
 
 def of_total(history: ConvergenceHistory, found: Discretisation | None) -> Variables:

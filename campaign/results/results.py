@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from campaign.errors import RefusalError
 from campaign.record import FAILED, FINAL_RUNOUT, SLID, Front, RealizationSummary, Status
+from campaign.results.walls import REACHED_BEHIND, with_walls_told_apart
 from campaign.scene import Scene, kept_scene
 from campaign.seeds import BASELINE
 from campaign.statistics.discretisation import Discretisation
@@ -107,6 +108,14 @@ class Results:
         mass, tip = (float(self.data[f"{which}_{name}"]) for name in FINAL_RUNOUT.values())
         return _summary(BASELINE, int(self.data[f"{which}_status"]), mass, tip)
 
+    @property
+    def reached_behind(self) -> NDArray[np.bool_]:
+        """Which slides have reached the wall behind the crest, (slides,): it disturbs their run-out, and bounds it not.
+
+        Their volume, and what they take behind the crest, are lower bounds.
+        """
+        return np.asarray(self.of_slides(REACHED_BEHIND) == 1)
+
     def of_slides(self, quantity: str) -> Sample:
         """Return a scalar of the realizations that slid, in their order."""
         values: Sample = self.data[quantity].values[self.has_slid]
@@ -177,4 +186,4 @@ def read_results(directory: Path) -> Results:
             f"the slides (format {FORMAT}). campaign run {directory} --allow-drift makes it again from the records."
         )
     overrides = filter(None, str(data.attrs["scene_overrides"]).split("\n"))
-    return Results(data, kept_scene(str(data.attrs["scene"]), overrides))
+    return Results(with_walls_told_apart(data), kept_scene(str(data.attrs["scene"]), overrides))

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from campaign.record import FAILED, Quantity, fill_of
+from campaign.results.walls import REACHED_BEHIND, told_apart
 from campaign.storage.columns import Columns
 
 
@@ -60,6 +61,11 @@ def gather(
         table.statuses[rows], table.reasons[rows] = block.statuses, block.reasons
         for name in table.values.keys() & block.values.keys():
             table.values[name][rows] = block.values[name]
+        if REACHED_BEHIND in table.values.keys() - block.values.keys():
+            settled = block.values.get("settle_time", np.full(len(block), np.nan))
+            table.statuses[rows], table.values[REACHED_BEHIND][rows] = told_apart(
+                block.statuses, block.reasons, settled
+            )
         for name in table.totals.keys() & block.values.keys():
             table.totals[name] = _with(table.totals[name], block, name)
     if (seen != 1).any():

@@ -11,6 +11,14 @@ from campaign.record import Status
 
 Variables = dict[str, xr.Variable]
 
+STATUS = (
+    "slid: the front came to rest, or can come no farther by as much as matters; ground behind it may still have moved "
+    "at the end, where settle_time is missing. not_settled, reached_wall: the front may have come farther after the "
+    "end of the run, or had the wall ahead not stopped it; run-out and what depends on it are lower bounds. The wall "
+    "behind the crest is told by reached_wall_behind. timeout, diverged, left_domain, crashed: no result"
+)
+"""What the meanings of the flags mean."""
+
 
 def variable(
     dims: str | tuple[str, ...],
@@ -35,6 +43,7 @@ def status_flags(statuses: NDArray[np.int8] | np.int8) -> xr.Variable:
         "standard_name": "status_flag",
         "flag_values": np.array([int(status) for status in Status], dtype="i1"),
         "flag_meanings": " ".join(status.name for status in Status),
+        "comment": STATUS,
     }
     return xr.Variable("realization" if np.ndim(statuses) else (), statuses, flags)
 

@@ -35,10 +35,10 @@ class Realizations(NamedTuple):
     Attributes
     ----------
     runouts : array (n,)
-        In m; 0 without a slide, NaN without a result. Where a wall of the model was in the way it is a lower bound.
+        In m; 0 without a slide, NaN without a result. Where the wall ahead was in the way it is a lower bound.
     has_slid : bool array (n,)
     is_spoiled : bool array (n,)
-        Whether it has no result, or a wall was in the way.
+        Whether it has no result, or reached either wall.
     reaches : bool array (receptor, n)
         Whether the front reached it.
     seconds : float
@@ -72,6 +72,7 @@ def realizations_of(outcome: Outcome, tally: Tally, home: Path, count: int) -> R
     steps, reaches = np.zeros(count), np.zeros((count, len(scene.receptor)), dtype=np.bool_)
     for columns in RecordStore(directory_of(home, outcome.changes), scene.digest()).columns(count):
         steps[columns.realizations] = columns.values["steps"]
+        at_wall[columns.realizations] |= columns.values.get("reached_wall_behind", 0) == 1
         if scene.receptor:
             reaches[columns.realizations] = columns.values["front_reaches"] == 1.0
     counts = np.isfinite(runouts)

@@ -187,7 +187,7 @@ class Screening:
             return ""
         return (
             f"{share:.0f} % of the scene's own realizations fail or reach a wall of the model: what these do is not "
-            "compared, or only as far as the wall lets them."
+            "compared, or only as the walls let them."
         )
 
 

@@ -12,8 +12,11 @@ if TYPE_CHECKING:  # with Numba, for which those who only read the sentences do 
     from solver.walls import Walls
 
 CAME_APART = "The front-most ground has come apart from the slide; final_runout is the place of that debris."
-CREST_WALL = "The slide has reached the wall behind the crest (x = 0 m), which hinders it."
-AHEAD_WALL = "The slide has reached the wall ahead of it (x = {width:g} m), which hinders it."
+CREST_WALL = (
+    "The slide has reached the wall behind the crest (x = 0 m): its volume and what it takes behind the crest are "
+    "lower bounds, and the wall disturbs its run-out, which may be longer or shorter with more ground there."
+)
+AHEAD_WALL = "The slide has reached the wall ahead of it (x = {width:g} m): its run-out is a lower bound."
 ON_THE_BASE = "The slip surface runs along the fixed base under {percent:.0f} % of the sliding ground."
 
 REMEDIES: dict[str, Callable[[Scene], str]] = {

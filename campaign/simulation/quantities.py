@@ -80,7 +80,7 @@ QUANTITIES: dict[str, Measured] = {
         "m",
         "how much farther the front would come at most after the end of the run, v^2 / (2 g f) with its speed or that "
         "of the sliding ground, and the residual strength over the weight for f; 0 at rest; missing where it is still "
-        "faster than half of its largest speed, a wall was in the way, or the front is a tip",
+        "faster than half of its largest speed, the wall ahead was in the way, or the front is a tip",
         compute=lambda end: end.farther_advance,
     ),
     "sliding_volume": Measured(
@@ -106,6 +106,14 @@ QUANTITIES: dict[str, Measured] = {
         "m",
         "distance behind the crest to which the ground surface is displaced farther than slide.displaced",
         compute=lambda end: end.moved_behind_crest(end.model.criteria.displaced),
+    ),
+    "reached_wall_behind": Measured(
+        (),
+        "1",
+        "1 where the slide has reached the wall behind the crest, else 0: sliding_volume, retrogression and "
+        "influence_distance are then lower bounds, and the wall disturbs the run-out in either direction",
+        "i8",
+        compute=lambda end: end.history.walls.left,
     ),
     "base_contact": Measured(
         (),

@@ -87,7 +87,8 @@ def status_of(ending: Ending) -> Status:
     """Return how a march ended in the terms of the dataset.
 
     A front that cannot come farther by as much as matters has come to its end, though the ground behind it may still
-    move, as it does for long where a brittle slope retrogresses.
+    move, as it does for long where a brittle slope retrogresses. The wall behind the crest bounds no run-out, so a
+    slide that has reached it ends as any other.
     """
     history, criteria = ending.history, ending.model.criteria
     if history.end is MarchEnd.DIVERGED:
@@ -96,7 +97,7 @@ def status_of(ending: Ending) -> Status:
         return Status.left_domain
     if history.max_displacement[-1] <= criteria.failed:
         return Status.no_slide
-    if any(history.walls):
+    if history.walls.right:
         return Status.reached_wall
     matters = max(criteria.displaced, NOTICEABLE * float(history.runout_mass[-1]))
     return Status.slid if ending.farther_advance <= matters else Status.not_settled

@@ -59,7 +59,7 @@ class InputEffects(NamedTuple):
 
 
 def first_slides(tally: Tally, count: int) -> tuple[int, ...]:
-    """Return the first slides of a whole campaign, without those that a wall was in the way of."""
+    """Return the first slides of a whole campaign, without those that the wall ahead was in the way of."""
     slides = (k for k in range(tally.prefix) if tally.summaries[k].status in UNHINDERED)
     return tuple(k for k, _ in zip(slides, range(count), strict=False))
 

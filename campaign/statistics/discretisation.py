@@ -32,7 +32,7 @@ class Discretisation(NamedTuple):
         The scene's own, in m.
     differences : array (pairs,)
         Final run-out of realization 0, 1, ... with half the cell minus that with the cell, in m; NaN unless both slid,
-        with no wall in the way.
+        without the wall ahead in the way.
     deterministic : float
         The same for the run with mean strengths.
     confidence : float

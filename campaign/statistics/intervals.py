@@ -27,12 +27,16 @@ class Interval(NamedTuple):
         nothing bounds the quantity from above.
     n : int
         Number of values behind the estimate.
+    is_least : bool
+        Whether the estimate itself is a lower bound of what the same values would give, had slides that were cut short
+        come as far as they may. The lower bound of the interval holds all the same, and so does the upper one.
     """
 
     estimate: float
     lower: float
     upper: float
     n: int
+    is_least: bool = False
 
     @property
     def half_width(self) -> float:
@@ -156,8 +160,8 @@ def std_interval(values: Sample, confidence: float) -> Interval:
 
 def std_of(variance: Interval) -> Interval:
     """Return the standard deviation that belongs to a variance."""
-    estimate, lower, upper, n = variance
-    return Interval(math.sqrt(estimate), math.sqrt(lower), math.sqrt(upper), n)
+    estimate, lower, upper = map(math.sqrt, variance[:3])
+    return Interval(estimate, lower, upper, variance.n)
 
 
 def quantile_interval(
@@ -192,7 +196,9 @@ def quantile_interval(
     most = values if is_least is None else np.where(is_least, math.inf, values)
     # NaN is where the rank before the first and the one after the last lead.
     low, high = (np.append(np.sort(each), math.nan) for each in (values, most))
-    return Interval(float(np.quantile(values, probability)), float(low[first - 1]), float(high[last]), n)
+    estimate = float(np.quantile(values, probability))
+    would_be_more = is_least is not None and is_least_quantile(values, probability, is_least)
+    return Interval(estimate, float(low[first - 1]), float(high[last]), n, would_be_more)
 
 
 def is_least_quantile(values: Sample, probability: float, is_least: NDArray[np.bool_]) -> bool:

@@ -26,9 +26,9 @@ class Outcomes(NamedTuple):
     runouts : array (slides,)
         Run-outs of those that slid [m], in the order of their ids.
     is_hindered : bool array (slides,)
-        Whether a wall of the model was in the way, so that the run-out is a lower bound.
+        Whether the wall ahead was in the way, so that the run-out is a lower bound.
     is_cut_short : bool array (slides,)
-        Whether that is so, or the slide still moved when its run ended: a lower bound as well.
+        Whether that is so, or the front may have come farther after its run ended: a lower bound as well.
     """
 
     realizations: int
@@ -44,12 +44,12 @@ class Outcomes(NamedTuple):
 
     @property
     def hindered(self) -> int:
-        """Number of slides that a wall was in the way of."""
+        """Number of slides that the wall ahead was in the way of."""
         return int(np.count_nonzero(self.is_hindered))
 
     @property
     def unhindered(self) -> int:
-        """Number of slides that no wall was in the way of."""
+        """Number of slides that the wall ahead was not in the way of."""
         return self.slides - self.hindered
 
     @property

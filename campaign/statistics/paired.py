@@ -53,6 +53,8 @@ class Difference(NamedTuple):
         Of the difference, from pairs; its `n` is their number.
     paired_error, unpaired_error : float
         Standard error of the difference, and what it would be for as many independent realizations of either scene.
+    first_is_least, other_is_least : bool
+        Whether either number would be larger, had slides that were cut short come as far as they may.
     """
 
     first: float
@@ -60,6 +62,8 @@ class Difference(NamedTuple):
     interval: Interval
     paired_error: float
     unpaired_error: float
+    first_is_least: bool = False
+    other_is_least: bool = False
 
 
 def mean_difference(first: Sample, other: Sample, confidence: float) -> Difference:
@@ -109,6 +113,33 @@ def proportion_difference(first: NDArray[np.bool_], other: NDArray[np.bool_], co
     paired = math.sqrt(gained + lost - (gained - lost) ** 2 / n) / n
     unpaired = math.sqrt(sum(share * (1 - share) for share in shares) / n)
     return Difference(*shares, interval, paired, unpaired)
+
+
+def bounded_proportion_difference(
+    pairs: tuple[NDArray[np.bool_], NDArray[np.bool_]],
+    undecided: tuple[NDArray[np.bool_], NDArray[np.bool_]],
+    confidence: float,
+) -> Difference:
+    """Return the same where it is not known of some pairs whether it holds: it does not, but for the bounds it may.
+
+    Parameters
+    ----------
+    pairs : two bool arrays (n,)
+        Whether it holds for sure in the first scene, and in the other.
+    undecided : two bool arrays (n,)
+        Where it may hold as well.
+    confidence : float
+    """
+    first, other = pairs
+    may_first, may_other = (may & ~holds for may, holds in zip(undecided, pairs, strict=True))
+    lower = proportion_difference(first | may_first, other, confidence).interval.lower
+    upper = proportion_difference(first, other | may_other, confidence).interval.upper
+    found = proportion_difference(first, other, confidence)
+    return found._replace(
+        interval=found.interval._replace(lower=lower, upper=upper),
+        first_is_least=bool(may_first.any()),
+        other_is_least=bool(may_other.any()),
+    )
 
 
 def discordance_interval(gained: int, lost: int, n: int, confidence: float) -> Interval:

@@ -63,7 +63,7 @@ def _share_beyond(outcomes: Outcomes, distance: float, n: int, confidence: float
         return unknown(math.nan, n)
     beyond, undecided = outcomes.beyond(distance), outcomes.undecided(distance)
     least, most = (exact_interval(count, n, confidence) for count in (beyond, beyond + undecided))
-    return least._replace(upper=most.upper)
+    return least._replace(upper=most.upper, is_least=undecided > 0)
 
 
 def failure_bounds(exceeding: int, valid: int, failed: int) -> tuple[float, float]:

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from campaign.record import LOWER_BOUND, Status
+from campaign.record import LOWER_BOUND, SLID, Status
 from campaign.statistics.intervals import Interval, Sample, quantile_interval, unknown
 from campaign.statistics.proportions import exact_interval, failure_bounds
 
@@ -30,6 +30,9 @@ EFFECTS = {
     "receptor_deposit": "final rise of the ground",
 }
 """What a slide does there once its front has come, and what that is called."""
+
+RISE = "receptor_deposit"
+"""The effect that is no largest value: ground that still moves may raise or lower it."""
 
 AHEAD = {
     "receptor_ahead_depth": "largest depth",
@@ -106,21 +109,32 @@ def reach_probability(
         return unknown(math.nan, 0), (math.nan, math.nan)
     undecided = int(np.count_nonzero(may_come & (reaches == 0.0)))
     least, most = (exact_interval(count, n, confidence) for count in (reached, reached + undecided))
-    return least._replace(upper=most.upper), failure_bounds(reached, n - undecided, failed + undecided)
+    found = least._replace(upper=most.upper, is_least=undecided > 0)
+    return found, failure_bounds(reached, n - undecided, failed + undecided)
 
 
 def _of_one(name: str, data: xr.Dataset, confidence: float) -> Iterator[ReceptorEstimate]:
-    may_go_on = np.isin(data["status"].values, list(LOWER_BOUND))
-    may_come = {"front_reaches": may_go_on & ~_stays_short(data), "moved_ground_reaches": may_go_on}
+    may_come = may_still_come(data)
     for variable, called in REACHED.items():
         interval, bounds = reach_probability(data[variable].values, may_come[variable], confidence)
         yield ReceptorEstimate(name, called, "1", interval, bounds)
     is_reached = data["front_reaches"].values == 1.0
     for variable, called in EFFECTS.items():
-        values = data[variable].values[is_reached]
+        values, cut = data[variable].values[is_reached], (still_moves(data) & (variable != RISE))[is_reached]
         for probability, quantile in QUANTILES.items():
-            interval = quantile_interval(values, probability, confidence)
+            interval = quantile_interval(values, probability, confidence, cut)
             yield ReceptorEstimate(name, f"{quantile} of the {called}, where reached", data[variable].units, interval)
+
+
+def may_still_come(data: xr.Dataset) -> dict[str, NDArray[np.bool_]]:
+    """Return in which realizations that were cut short each of `REACHED` may come to the one receptor of `data`."""
+    may_go_on = np.isin(data["status"].values, list(LOWER_BOUND))
+    return {"front_reaches": may_go_on & ~_stays_short(data), "moved_ground_reaches": may_go_on}
+
+
+def still_moves(data: xr.Dataset) -> NDArray[np.bool_]:
+    """Whether any ground of a slide still moved when its run ended, so that what it does at a place is so far, (n,)."""
+    return np.asarray(np.isin(data["status"].values, list(SLID)) & np.isnan(data["settle_time"].values))
 
 
 def _stays_short(data: xr.Dataset) -> NDArray[np.bool_]:

@@ -24,5 +24,5 @@ def without_rule(scene: Scene, realizations: int) -> Scene:
 
 
 def unhindered_runout(summary: RealizationSummary, front: Front) -> float:
-    """Return the run-out of a slide in m, NaN of all that did not slide or had a wall in the way."""
+    """Return the run-out of a slide in m, NaN of all that did not slide or had the wall ahead in the way."""
     return summary.runout(front) if summary.status in UNHINDERED else np.nan

@@ -55,7 +55,7 @@ def total_interval(mean: Interval, found: Discretisation | None) -> Interval:
         for arm in (mean.estimate - mean.lower, mean.upper - mean.estimate)
     )
     lower, upper = min(mean.lower, limit - below), max(mean.upper, limit + above)
-    return Interval(mean.estimate, 0.0 if lower < 0.0 else lower, upper, mean.n)
+    return Interval(mean.estimate, 0.0 if lower < 0.0 else lower, upper, mean.n, mean.is_least)
 
 
 def total_mean(mean: Interval, found: Discretisation | None, is_bounded: bool) -> Interval:
@@ -65,7 +65,7 @@ def total_mean(mean: Interval, found: Discretisation | None, is_bounded: bool) -
     is the lower bound.
     """
     total = total_interval(mean, found)
-    return total if is_bounded else total._replace(upper=math.inf)
+    return total if is_bounded else total._replace(upper=math.inf, is_least=True)
 
 
 def has_mesh_error(found: Discretisation | None) -> bool:

@@ -19,16 +19,24 @@ def chance(probability: float) -> str:
     return f"{100 * probability:.{2 if probability < 0.1 else 3}g} %"
 
 
+def least(number: Interval) -> str:
+    """Return what to put before an estimate: "at least " where slides that were cut short would make it larger."""
+    return "at least " if number.is_least else ""
+
+
 def is_open(probability: Interval) -> bool:
-    """Whether nothing bounds a probability from above, as walls of the model stopped all that did not get so far."""
-    return probability.estimate < 1 <= probability.upper
+    """Whether nothing bounds a probability from above, as all were cut short that did not get so far."""
+    return probability.is_least and probability.upper >= 1
 
 
 def estimated_chance(probability: Interval) -> str:
-    """Write the estimate of a probability: "35 %", "at least 89 %" where nothing bounds it from above."""
-    if not is_open(probability):
-        return chance(probability.estimate)
-    return f"at least {chance(probability.estimate)}" if probability.estimate > 0 else "not known"
+    """Write the estimate of a probability: "35 %", "at least 62 %" where slides that were cut short may add to it.
+
+    "At least nothing" tells nothing, so it is then what may be at most.
+    """
+    if probability.estimate > 0 or not probability.is_least:
+        return f"{least(probability)}{chance(probability.estimate)}"
+    return "not known" if is_open(probability) else f"at most {chance(probability.upper)}"
 
 
 def chances(interval: Interval) -> str:
@@ -59,7 +67,7 @@ def so_far(outcomes: Outcomes) -> str:
 
 def chance_of_slide(probability: Interval) -> str:
     """Say how probable a slide is, to follow "the probability of a slide is": "at most 7.1 %", "35 to 55 %"."""
-    if probability.estimate == 0 and not is_open(probability):
+    if probability.estimate == 0 and not probability.is_least:
         return f"at most {chance(probability.upper)}"
     if probability.estimate == 1:
         return f"at least {chance(probability.lower)}"

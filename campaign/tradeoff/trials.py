@@ -37,7 +37,7 @@ END = {
     Status.diverged: "diverged",
     Status.left_domain: "left the ground",
     Status.crashed: "crashed",
-    Status.reached_wall: "reached a wall",
+    Status.reached_wall: "reached the wall ahead",
 }
 """What is said of realizations without a run-out of their own."""
 
@@ -53,11 +53,11 @@ class Trial:
     cell
         In m.
     runouts
-        Final run-out of realization 0, 1, ... in m, NaN of all that did not slide or had a wall in the way.
+        Final run-out of realization 0, 1, ... in m, NaN of all that did not slide or had the wall ahead in the way.
     seconds
         Core time of one of them in s; the estimate where none was run.
     ends
-        How those ended that did not slide or had a wall in the way, and how many of each.
+        How those ended that did not slide or had the wall ahead in the way, and how many of each.
     why_not
         Why none was run, "" if they were.
     """
@@ -76,7 +76,7 @@ class Trial:
 
     @property
     def slides(self) -> int:
-        """Number of realizations that slid with no wall in the way."""
+        """Number of realizations that slid without the wall ahead in the way."""
         return int(np.isfinite(self.runouts).sum())
 
     @property

@@ -38,6 +38,7 @@ def make_record(realization: int, status: Status = Status.slid, reason: str = ""
         values[name] = array if array.ndim else array.item()
     values["final_runout"] = float(rng.normal(10, 0.5))
     values["final_runout_mass"] = values["final_runout"] - 0.25
+    values["reached_wall_behind"] = 0
     return Record(realization, status, reason, values, UNITS)
 
 

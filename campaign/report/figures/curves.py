@@ -32,7 +32,8 @@ def curves(results: Results) -> Illustration:
     half = float(np.median(np.nan_to_num(results.data["settle_time"].values[results.has_slid], nan=np.inf)))
     rest = f" Half of them rest after {half:.1f} s." if np.isfinite(half) else ""
     caption = f"Run-out of {counted(n, 'slide')} over time{so_far(results.outcomes)}.{rest}{what_is_drawn(n)}"
-    return Illustration(figure, caption, f"Run-out against time for {counted(n, 'slide')}; all rise and level off.")
+    level = "some still rise at the end" if results.outcomes.cut_short else "all rise and level off"
+    return Illustration(figure, caption, f"Run-out against time for {counted(n, 'slide')}; {level}.")
 
 
 def draw_histories(axes: Axes, time: np.ndarray, histories: np.ndarray) -> None:

@@ -12,7 +12,7 @@ from campaign.report.figures.style import BLACK, BLUE, ORANGE
 from campaign.report.places import Reach, reach_estimates
 from campaign.report.wording import bounds
 from campaign.results.results import Results
-from campaign.statistics.wording import chances, estimated_chance
+from campaign.statistics.wording import chances, estimated_chance, least
 
 STOPS: Final = {0.5: "half", estimates.FAR: f"{100 * estimates.FAR:g} %"}
 """Shares of the slides whose reach is marked."""
@@ -39,10 +39,8 @@ def _stops(results: Results, section: Section, words: str) -> list[Label]:
     marks = []
     for share, name in STOPS.items():
         reach = estimates.total_quantile(results, share)
-        is_open = estimates.is_open(results, reach, share)
-        least = "at least " if is_open else ""
-        told = f"{name} stop within {least}{reach.estimate:.2f} m from the toe, {bounds(reach, 'm', '.2f')}"
-        label = name + words.replace(" before", ": at least here" if is_open else " before")
+        told = f"{name} stop within {least(reach)}{reach.estimate:.2f} m from the toe, {bounds(reach, 'm', '.2f')}"
+        label = name + words.replace(" before", ": at least here" if reach.is_least else " before")
         marks.append(Label(toe_x + reach.estimate, toe_y, label, BLUE, told))
     return marks if results.outcomes.slides > 1 else []
 

@@ -19,6 +19,7 @@ from campaign.results.results import Results
 from campaign.scene.first_look import look_at
 from campaign.statistics.intervals import Sample
 from campaign.statistics.total import has_mesh_error
+from campaign.statistics.wording import least
 from campaign.terminal import counted
 
 LEFT, RIGHT, BELOW, ABOVE, GAP, STRIP = 0.62, 0.12, 0.45, 0.3, 0.12, 0.85
@@ -121,8 +122,8 @@ def _alt(results: Results, section: Section) -> str:
     if not results.outcomes.slides:
         return "Cross-section of the slope, which has not slid."
     reach = estimates.quantile_runout(results, 0.5)
-    least, x = "at least " if estimates.is_open(results, reach, 0.5) else "", section.surface.toe[0] + reach.estimate
+    x = section.surface.toe[0] + reach.estimate
     return (
-        f"Cross-section of the slope; half of the slides stop within {least}{reach.estimate:.1f} m of the toe, at x = "
-        f"{x:.1f} m."
+        f"Cross-section of the slope; half of the slides stop within {least(reach)}{reach.estimate:.1f} m of the toe, "
+        f"at x = {x:.1f} m."
     )

@@ -22,7 +22,7 @@ def sensitivity(results: Results, section: Section) -> Illustration:
     """Draw the change of the run-out by more strength in each box, a panel for each random property."""
     found, slides = map_of(results.data), results.outcomes.unhindered
     if found is None:
-        which = "that no wall stops, and whose random soil is known"
+        which = "that the wall ahead does not stop, and whose random soil is known"
         raise NotDrawableError(f"It needs {FEWEST} slides {which}; there are {slides}.")
     need(found.explained > 0, "The place of strong ground foretells nothing of the run-out.")
     named = names(results)

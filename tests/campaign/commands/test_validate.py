@@ -91,10 +91,10 @@ def test_a_slide_at_a_wall_is_told_as_a_lower_bound_with_the_key_that_moves_the_
     """Without the wall its front stops 10.8 m beyond the toe."""
     printed = tried(capsys, "geometry.slope.plain=8 m")
     assert re.search(
-        r"its front is at least \d\.\d+ m beyond the toe, at x = 4\d\.?\d* m, and a wall of the model hindered it\.",
+        r"its front is at least \d\.\d+ m beyond the toe, at x = 4\d\.?\d* m, and the wall ahead stopped it\.",
         printed,
     )
-    reached = "Warning: The slide has reached the wall ahead of it (x = 43 m), which hinders it."
+    reached = "Warning: The slide has reached the wall ahead of it (x = 43 m): its run-out is a lower bound."
     assert f"{reached} Lengthen geometry.slope.plain." in printed
     profile = 'geometry={surface=[["0 m","19 m"],["20 m","19 m"],["35 m","4 m"],["43 m","4 m"]]}'
     road = 'receptor=[{name="road", x="40 m"}, {name="house", x="42.9 m"}]'

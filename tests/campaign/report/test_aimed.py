@@ -75,7 +75,7 @@ def test_what_was_not_reached_is_said(plain):
 
 def test_runs_that_were_cut_short_make_it_a_lower_bound(plain):
     given = aimed(plain, cut_short=3)
-    assert "It is a lower bound: 3 of 12 runs on that mesh met a wall" in answer(given)
+    assert "It is a lower bound: 3 of 12 runs on that mesh met the wall ahead" in answer(given)
     assert "The slide runs at least 9.00 m on average, at least 8.60 m with 95 % confidence" in answer(given)
     assert ("at least 9.00 m", "at least 8.60 m") in [each[1:3] for each in tiles(given)]
     assert ("at least 9.00 m", "at least 8.60 m") in [each[2:4] for each in error_budget(given)]

@@ -24,6 +24,7 @@ def results(runouts, statuses, raised=None, rest=None, influence=None):
         "x": ("x", x),
         "initial_surface": ("x", np.zeros(x.size)),
         "deposit_surface": (("realization", "x"), (x <= reach[:, None]).astype(float)),
+        "reached_wall_behind": ("realization", np.zeros(n)),
         "settle_time": ("realization", np.full(n, 5.0) if rest is None else np.array(rest)),
         "sliding_volume": ("realization", np.ones(n), {"units": "m3/m"}),
         "retrogression": ("realization", np.ones(n), {"units": "m"}),
@@ -115,7 +116,8 @@ def test_walls_and_failures_are_told_first():
     probability, median, far = headline.tiles(results([*np.arange(1.0, 11.0), np.nan], statuses))
     assert probability.remark == "10 of 10 simulated slopes slid; 1 failed"
     assert (median.value, median.interval) == ("5.5 m", "at least 2.0 m")
-    stopped = "a wall of the model stopped 1 of 10 slides and 1 of 10 slides still moved when the run ended"
+    stopped = "the wall ahead of the slope stopped 1 of 10 slides"
+    stopped += " and the front of 1 of 10 slides may have come farther after the end of the run"
     assert (far.value, far.remark) == ("at least 9.5 m", f"lower bound: {stopped}")
 
 
@@ -167,7 +169,8 @@ def test_where_there_would_be_more_behind_the_crest_it_is_a_lower_bound():
     assert (volume.name, volume.remark) == ("ground that moves by more than 0.1 m, per metre of width", told)
     assert (lost.name, lost.remark) == ("length lost behind the crest, moved by more than 1 m", told)
     assert moved.name == "length behind the crest that moves by more than 0.1 m"
-    assert moved.remark == ("at least: in 3 slides to the wall of the model and in 2 slides still moving at the end")
+    at_wall = "in 3 slides as far back as the wall behind the crest"
+    assert moved.remark == f"at least: {at_wall} and in 2 slides still moving at the end"
     assert (rest.name, rest.remark) == (REST, "")
 
 
@@ -177,9 +180,9 @@ def test_what_moves_in_slides_that_a_wall_stopped_is_at_least_so_much():
         np.arange(1.0, 21.0), [Status.reached_wall] * 10 + [Status.slid] * 10, influence=[*np.arange(1.0, 11.0)] * 2
     )
     volume, lost, moved, rest = movement(given)
-    assert volume.remark == lost.remark == moved.remark == "at least: in 10 slides that a wall stopped"
+    assert volume.remark == lost.remark == moved.remark == "at least: in 10 slides that the wall ahead stopped"
     assert (volume.median, lost.median) == ("at least 1.00 m³/m", "at least 1.00 m")
     assert (moved.median, moved.median_interval) == ("at least 5.50 m", "at least 3.00 m")
-    assert rest.remark == "in 10 slides with a wall in the way"
+    assert rest.remark == "in 10 slides with the wall ahead in the way"
     free = movement(results(np.arange(1.0, 21.0), [Status.slid] * 20, influence=[*np.arange(1.0, 11.0)] * 2))
     assert (free[2].median, free[2].median_interval) == ("5.50 m", "3.00 to 8.00 m")

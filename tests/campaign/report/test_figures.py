@@ -158,7 +158,7 @@ def test_what_is_left_open_beyond_the_longest_slide_is_told_with_those_cut_short
 
 
 def test_marks_where_slides_stop_say_at_least_where_walls_leave_them_open():
-    walled = results(NORMAL, [Status.slid] * 30 + [Status.reached_wall] * 10)
+    walled = results(np.sort(NORMAL), [Status.slid] * 30 + [Status.reached_wall] * 10)
     half, far = marks(walled, section_of(SCENE, NORMAL), has_room=True)[2:4]
     assert (half.text, far.text) == ("half stop before", "95 % stop: at least here")
     free = marks(results(NORMAL), section_of(SCENE, NORMAL), has_room=True)

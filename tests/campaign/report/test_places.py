@@ -26,6 +26,7 @@ def results(front, moved):
         "moved_ground_reaches": (by, np.array(moved, dtype=float)[:, None]),
         "front_position": (("realization", "time"), np.zeros((n, 2))),
         "farther_advance": ("realization", np.zeros(n)),
+        "settle_time": ("realization", np.full(n, 5.0)),
         "front_arrival": (by, numbers, {"units": "s"}),
         "moved_ground_arrival": (by, numbers - 1.0, {"units": "s"}),
         **{name: (by, numbers, {"units": "m"}) for name in EFFECTS},
@@ -94,12 +95,41 @@ def test_flow_close_to_a_wall_that_stopped_it_is_told_with_caution():
     """Five cells of 2 m: what a wall 8 m away throws back is seen, what one 12 m away does is not."""
     (place,) = places(beside_a_wall(8.0, [Status.reached_wall] * 3 + [Status.slid]))
     assert place.thrown_back == (
-        "A wall of the model, 8 m from here, stopped 3 of the 4 slides that come here. Ground piles up at it and is "
+        "The wall ahead, 8 m from here, stopped 3 of the 4 slides that come here. Ground piles up at it and is "
         "thrown back, so that depths, velocities and pressures are not those of the slope alone."
     )
     for away, ending in ((12.0, Status.reached_wall), (8.0, Status.slid)):
         (place,) = places(beside_a_wall(away, [ending] * 4))
         assert place.thrown_back == ""
+
+
+def test_what_ground_that_still_moves_does_at_a_place_is_so_far():
+    """In two of four slides ground still moved at the end, one of them the least deep: 1, 2, 3 and 4 m."""
+    given = results([1] * 4, [1] * 4)
+    moving = given.data.assign(settle_time=("realization", np.array([np.nan, 5.0, 5.0, np.nan])))
+    (place,) = places(Results(moving, given.scene))
+    told = {row.name: row.median for row in place.effects}
+    assert told["largest flow depth"] == "at least 2.50 m"
+    assert told["arrival of the front"] == "2.50 s"
+    assert told["final rise of the ground"] == "2.50 m"
+    assert place.so_far.startswith(
+        "In 2 of the 4 slides that come here, ground somewhere still moved when the run ended"
+    )
+    (still,) = places(given)
+    assert (still.so_far, still.effects[2].median) == ("", "2.50 m")
+
+
+def test_a_probability_that_few_leave_open_is_at_least_what_was_counted():
+    """Two of four get there, one may have come there after the end, and the fourth has not slid."""
+    given = results([1, 1, 0, 0], [1, 1, 0, 0])
+    ends = [Status.slid, Status.slid, Status.not_settled, Status.no_slide]
+    data = given.data.assign(
+        status=("realization", np.array([int(each) for each in ends])),
+        farther_advance=("realization", np.full(4, np.nan)),
+    )
+    most = f"{100 * special.betaincinv(4, 1, 0.975):.3g} %"
+    (tile,) = headline.reaches(Results(data, given.scene))
+    assert (tile.value, tile.interval) == ("at least 50 %", f"{100 * special.betaincinv(2, 3, 0.025):.2g} to {most}")
 
 
 def test_fronts_that_came_back_are_why_a_place_counts_more_than_the_table():

@@ -11,11 +11,14 @@ from campaign.report.answer import alike, answer, outcomes
 from campaign.report.cut_short import causes
 from campaign.report.error_budget import error_budget
 from campaign.report.inputs import sentences
+from campaign.report.movement import movement
 from campaign.report.reservations import reasons_for_doubt
 from campaign.report.summary import summary
 from campaign.results.results import Results, read_results
+from campaign.results.walls import AHEAD as AHEAD_OF
+from campaign.results.walls import BEHIND, with_walls_told_apart
 from campaign.seeds import BASELINE
-from campaign.simulation.flags import AHEAD_WALL, CAME_APART, CREST_WALL, ON_THE_BASE
+from campaign.simulation.flags import AHEAD_WALL, CAME_APART, ON_THE_BASE
 from campaign.simulation.ground import prepare
 
 LEFT = "A particle left the grid at {time} s; widen the ground."
@@ -57,25 +60,51 @@ def by_source(results, source):
     return [row for row in error_budget(results) if row.source == source]
 
 
-def test_the_wall_in_the_way_is_named(twenty):
-    def told(*stopped, reason):
-        return [(each.told, each.remedy) for each in causes(ended(twenty, stopped, reason=reason))]
+def test_the_wall_ahead_stops_slides(twenty):
+    def told(*stopped):
+        return [(each.told, each.remedy) for each in causes(ended(twenty, stopped))]
 
-    assert told(0, reason=CREST_WALL) == [
-        (
-            "the wall behind the crest stopped 1 of 20 slides",
-            "Lengthen geometry.slope.crest, for instance by 15 m, which moves the toe from x = 35 m to 50 m.",
-        )
-    ]
-    assert told(0, 1, reason=f"{CREST_WALL} {AHEAD_WALL.format(width=50.0)}") == [
-        (
-            "the wall behind the crest or that ahead of the slope stopped 2 of 20 slides",
-            "Lengthen geometry.slope.crest, for instance by 15 m, which moves the toe from x = 35 m to 50 m. Lengthen "
-            "geometry.slope.plain.",
-        )
-    ]
-    assert told(2, reason="")[0][0] == "a wall of the model stopped 1 of 20 slides"
-    assert told(reason="") == []
+    stopped = "the wall ahead of the slope stopped {} of 20 slides"
+    assert told(0) == [(stopped.format(1), "Lengthen geometry.slope.plain.")]
+    assert told(0, 1)[0][0] == stopped.format(2)
+    assert told() == []
+
+
+def test_the_wall_behind_the_crest_disturbs_and_bounds_no_run_out(twenty):
+    """Which made one of 15.50 m run 15.90 m: every number in front is told as it was counted, with a caution."""
+    reached = {"reached_wall_behind": ("realization", np.arange(20) < 5)}
+    disturbed = ended(twenty, **reached)
+    plain, cautioned = answer(twenty), answer(disturbed)
+    caution = (
+        " 5 of 20 slides reach the wall behind the crest, which disturbs run-outs: with more ground there they may be "
+        "longer or shorter. Lengthen geometry.slope.crest, for instance by 15 m, which moves the toe from x = 35 m to "
+        "50 m."
+    )
+    assert caution in cautioned
+    assert cautioned.replace(caution, "") == plain
+    assert headline.tiles(disturbed) == headline.tiles(twenty)
+    assert set(reasons_for_doubt(disturbed)) - set(reasons_for_doubt(twenty)) == {
+        "5 of 20 slides reach the wall behind the crest: there the volume of the slide and the length that moves "
+        "behind the crest are lower bounds. The run-out is not one; it counts as it was measured, and the wall "
+        "disturbs it, longer or shorter."
+    }
+    (row,) = by_source(disturbed, "Walls")
+    assert (row.value, row.interval) == ("longer or shorter", "5 of 20 slides reach the wall behind the crest")
+    volume, lost, *_ = movement(disturbed)
+    assert volume.remark == lost.remark == "at least: in 5 slides as far back as the wall behind the crest"
+
+
+@pytest.mark.parametrize(("settle_time", "status"), [(5.0, Status.slid), (np.nan, Status.not_settled)])
+def test_results_of_earlier_versions_have_the_walls_told_apart(twenty, settle_time, status):
+    """They had one status for both walls, and a reason that names them."""
+    behind, ahead = (f"The slide has reached {wall}, which hinders it." for wall in (BEHIND, f"{AHEAD_OF} of it"))
+    old = ended(twenty, stopped=range(3)).data.drop_vars("reached_wall_behind").copy(deep=True)
+    old["reason"].values[:3] = behind, ahead, f"{behind} {ahead}"
+    old["settle_time"].values[:] = settle_time
+    found = with_walls_told_apart(old)
+    assert found["status"].values[:4].tolist() == [status, Status.reached_wall, Status.reached_wall, Status.slid]
+    assert found["reached_wall_behind"].values[:4].tolist() == [1, 0, 1, 0]
+    assert old["status"].values[0] == Status.reached_wall
 
 
 def test_each_of_several_remarks_on_a_slide_is_counted_by_itself(twenty):
@@ -93,8 +122,8 @@ def test_many_slides_cut_short_leave_no_upper_bound(twenty):
     assert f"The slide runs at least 10.19 m on average, at least {lower:.2f} m with 95 % confidence" in told
     assert (
         "This is a lower bound, and nothing bounds the mean from above: the wall ahead of the slope stopped 1 of 20 "
-        "slides and 1 of 20 slides still moved when the run ended. Lengthen geometry.slope.plain. Raise "
-        "numerics.end_time."
+        "slides and the front of 1 of 20 slides may have come farther after the end of the run. Lengthen "
+        "geometry.slope.plain. Raise numerics.end_time."
     ) in told
     assert "Single slides, as far as they came, scatter by a standard deviation of 0.12 m; the shortest" in told
     assert "the longest at least 10.38 m" in told
@@ -123,7 +152,7 @@ def test_a_median_holds_whatever_the_longest_slides_would_have_done(twenty):
     assert (lowest.value, lowest.interval) == ("at least 10.2 m", "at least 10.1 m")
     few = headline.tiles(ended(twenty, stopped=[3]))[1]
     assert (few.value, few.interval, few.remark) == (
-        "10.2 m",
+        "at least 10.2 m",
         "10.1 to 10.3 m",
         "the interval allows for 1 slide cut short",
     )
@@ -139,12 +168,12 @@ def test_walls_that_stop_all_slides_are_the_reason_that_is_given(twenty):
     }
     stopped = ended(twenty, range(20), baseline=Status.reached_wall, **pairs)
     (change,) = by_source(stopped, "Discretisation")
-    assert change.interval == "of the first 4 realizations walls stopped all 4 that slid"
+    assert change.interval == "of the first 4 realizations the wall ahead stopped all 4 that slid"
     (release,) = by_source(stopped, "Release")
-    assert (release.value, release.interval) == ("not estimated", 'this run reached a wall with "release"')
+    assert (release.value, release.interval) == ("not estimated", 'this run reached the wall ahead with "release"')
     assert sentences(stopped) == [
-        "It takes 30 slides that no wall stops to say which property of the soil matters, and there are 0; what the "
-        "inputs do is told by slides that no wall stops, and walls stopped all of them."
+        "It takes 30 slides that the wall ahead does not stop to say which property of the soil matters, and there are "
+        "0; what the inputs do is told by slides that the wall ahead does not stop, and it stopped all of them."
     ]
     assert "With mean strengths everywhere it would run at least 9.00 m; 100 % of all" in answer(stopped)
     assert by_source(stopped, "Sampling")[-1].quantity.endswith(
@@ -173,11 +202,14 @@ def test_slides_that_still_move_are_counted_not_shared_out(twenty):
     """The made-up histories advance by a tenth of the run-out in the last second."""
 
     def moving(*which):
-        return next(each for each in reasons_for_doubt(ended(twenty, moving=which)) if "still moved" in each)
+        return next(each for each in reasons_for_doubt(ended(twenty, moving=which)) if "end_time" in each)
 
-    assert moving(0).startswith("1 of 20 slides still moved when the run ended (numerics.end_time): its run-out is a")
+    assert moving(0).startswith(
+        "The front of 1 of 20 slides may have come farther after the end of the run (numerics.end_time): its run-out is"
+    )
     assert moving(0).endswith("In the last 1 s its front advanced by 0.00 m.")
-    assert "2 of 20 slides still moved when the run ended (numerics.end_time): their run-outs are" in moving(0, 1)
+    assert "The fronts of 2 of 20 slides may have come farther after the end of the run" in moving(0, 1)
+    assert "(numerics.end_time): their run-outs are lower bounds." in moving(0, 1)
     assert "of these 2 advanced by more than 1 cm" in moving(0, 1)
 
 
@@ -204,9 +236,18 @@ def test_what_is_said_of_some_realizations_is_not_said_of_all(twenty):
     apart = ended(twenty)
     apart.data["reason"].values[:3] = CAME_APART
     (outcome,) = outcomes(apart)
-    assert outcome.meaning == "slid, and the front came to rest"
+    assert outcome.meaning == "slid and came to rest"
     assert outcome.reasons == [f"In 3 of them: {CAME_APART}"]
-    assert f"the front came to rest. In 3 of them: {CAME_APART[:40]}" in " ".join(summary(apart).split())
+    assert f"slid and came to rest. In 3 of them: {CAME_APART[:40]}" in " ".join(summary(apart).split())
+
+
+def test_a_front_at_rest_with_other_ground_still_moving_is_told_as_that(twenty):
+    moving = ended(twenty, settle_time=("realization", np.where(np.arange(20) < 15, np.nan, 5.0)))
+    assert [(each.realizations, each.meaning) for each in outcomes(moving)] == [
+        (5, "slid and came to rest"),
+        (15, "slid; the front comes no farther, but ground behind it still moved at the end time"),
+    ]
+    assert [each.realizations for each in outcomes(twenty)] == [20]
 
 
 def test_who_is_told_to_ask_for_a_rarer_slide_is_told_to_raise_the_realizations_too(twenty):

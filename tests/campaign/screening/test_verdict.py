@@ -64,7 +64,7 @@ def test_the_change_of_the_mean_is_that_of_pairs():
 def test_pairs_that_lack_a_run_out_are_left_out():
     there = np.where(np.arange(40) < 2, math.nan, RUNOUTS + 0.3)
     mean = effects_of(small_scene(), realizations(RUNOUTS), realizations(there))[0]
-    assert mean.difference.interval[:] == pytest.approx((0.3, 0.3, 0.3, 38))
+    assert mean.difference.interval[:4] == pytest.approx((0.3, 0.3, 0.3, 38))
 
 
 def test_an_accuracy_of_the_scene_is_the_tolerance():

@@ -38,3 +38,9 @@ def test_a_slide_has_settled_once_its_front_comes_no_farther(runout, farther, st
 
 def test_what_a_wall_stopped_has_not():
     assert status_of(ending(5.0, 0.0, walls=Walls(right=True))) is Status.reached_wall
+
+
+def test_the_wall_behind_the_crest_decides_nothing():
+    behind = Walls(left=True)
+    assert status_of(ending(5.0, 0.0, walls=behind)) is Status.slid
+    assert status_of(ending(5.0, np.nan, walls=behind)) is Status.not_settled

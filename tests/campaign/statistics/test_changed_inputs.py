@@ -38,4 +38,4 @@ def test_the_largest_effect_comes_first_and_an_unknown_one_last():
     found = InputEffects(("rate", "length", "cohesion"), (0, 1), rows, 0.95)
     assert list(found.ranked()) == ["cohesion", "rate", "length"]
     assert list(found.known()) == ["cohesion", "rate"]
-    assert found.effects["cohesion"] == pytest.approx((-2.0, -14.706, 10.706, 2), abs=1e-3)
+    assert found.effects["cohesion"] == pytest.approx((-2.0, -14.706, 10.706, 2, False), abs=1e-3)

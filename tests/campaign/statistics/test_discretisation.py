@@ -64,7 +64,7 @@ def test_the_estimate_is_a_size_and_the_change_has_a_sign():
     """Student's t of 95 % and 3 degrees of freedom is 3.182: -1 +- 3.182 sqrt(1/15) = -1.82 to -0.18 m."""
     found = Discretisation(1.0, np.array([-0.4, -1.6, -0.8, -1.2]), -0.5, 0.95)
     assert found.error == pytest.approx(1.0)
-    assert found.interval == pytest.approx((-1.0, -1.82, -0.18, 4), abs=0.005)
+    assert found.interval == pytest.approx((-1.0, -1.82, -0.18, 4, False), abs=0.005)
 
 
 @pytest.mark.parametrize("differences", [[], [np.nan], [0.5]])

@@ -16,6 +16,7 @@ from campaign.statistics.proportions import (
     failure_bounds,
     slide_probability,
 )
+from campaign.statistics.wording import chance_of_slide, estimated_chance
 
 
 def contains(interval, truth):
@@ -23,8 +24,8 @@ def contains(interval, truth):
 
 
 def test_no_slide_in_forty_leaves_nearly_nine_per_cent():
-    assert exact_interval(0, 40, 0.95) == (0.0, 0.0, pytest.approx(0.0881, abs=5e-5), 40)
-    assert exact_interval(40, 40, 0.95) == (1.0, pytest.approx(0.9119, abs=5e-5), 1.0, 40)
+    assert exact_interval(0, 40, 0.95) == (0.0, 0.0, pytest.approx(0.0881, abs=5e-5), 40, False)
+    assert exact_interval(40, 40, 0.95) == (1.0, pytest.approx(0.9119, abs=5e-5), 1.0, 40, False)
 
 
 @pytest.mark.parametrize("n", [1, 7, 40, 1000])
@@ -72,6 +73,11 @@ def test_slides_cut_short_bound_the_exceedance(cause):
     assert found.estimate == 5 / 20
     assert found.lower == exact_interval(5, 20, 0.95).lower
     assert found.upper == exact_interval(9, 20, 0.95).upper
+    assert found.is_least
+    assert estimated_chance(found) == "at least 25 %"
+    assert not exceedance(given, 7.5, 0.95).is_least  # which all that were cut short have passed
+    none_yet = exceedance(given, 12.0, 0.95)
+    assert (estimated_chance(none_yet), chance_of_slide(none_yet)) == ("at most 49 %", "0 to 49 %")
     assert slide_probability(given, 0.95).estimate == 1.0
 
 

@@ -28,6 +28,7 @@ def dataset(front, moved, statuses, depth, stop=0.0, farther=np.nan):
             np.tile(np.reshape(stop, (-1, 1)), (len(statuses) // np.size(stop), 2)),
         ),
         "farther_advance": ("realization", np.broadcast_to(farther, len(statuses))),
+        "settle_time": ("realization", np.full(len(statuses), 5.0)),
     }
     bounds = {"receptor_x_bounds": (("receptor", "bounds"), [[PLACE, PLACE + 4.0]])}
     return xr.Dataset(effects | flags | status | fronts, {"receptor": ["road"], **bounds})

@@ -92,4 +92,4 @@ def test_it_is_hardly_wider_than_the_change_and_both_errors():
 
 def test_slides_cut_short_leave_the_lower_bound_and_no_upper_one():
     assert total_mean(MEAN, pairs(-0.6, -0.6, -0.6), is_bounded=True) == total_interval(MEAN, pairs(-0.6, -0.6, -0.6))
-    assert total_mean(MEAN, None, is_bounded=False) == (11.0, 10.8, math.inf, 100)
+    assert total_mean(MEAN, None, is_bounded=False) == (11.0, 10.8, math.inf, 100, True)
