@@ -22,8 +22,11 @@ DIMENSIONS = {
 }
 """Unit and name of the numbers along which there are several of a measure."""
 
+IS_LEAST = "{}_is_least"
+
 DIFFERENCE: dict[str, tuple[str, Callable[[Difference], Any]]] = {
     "{}": ("{}", lambda found: found.other),
+    IS_LEAST: ("1 where slides that were cut short would make {} larger, else 0", lambda found: found.other_is_least),
     "{}_difference": ("{}, minus that of the first scenario", lambda found: found.interval.estimate),
     "{}_difference_ci": ("confidence interval of the difference of {}", lambda found: found.interval[1:3]),
     "{}_paired_error": ("standard error of the difference of {} from pairs", lambda found: found.paired_error),
@@ -75,14 +78,15 @@ def _of_measure(rows: list[Measure]) -> Variables:
         values = np.array([[read(each) for each in (_reference(row), *row.differences)] for row in rows])
         ordered = values.swapaxes(0, 1) if first.dim else values[0]
         along = (*dims, "bound") if ordered.ndim > len(dims) else dims
-        variables[name.format(first.variable)] = variable(along, ordered, first.unit, meaning.format(what))
+        kind = ("1", "i1") if name == IS_LEAST else (first.unit, "f8")
+        variables[name.format(first.variable)] = variable(along, ordered, kind[0], meaning.format(what), kind[1])
     return variables
 
 
 def _reference(measure: Measure) -> Difference:
     """Return the number of the first scenario, which has no difference from itself."""
-    number = measure.differences[0].first
-    return Difference(number, number, unknown(math.nan, 0), math.nan, math.nan)
+    number, *_, is_least, _ = measure.differences[0]
+    return Difference(number, number, unknown(math.nan, 0), math.nan, math.nan, is_least, is_least)
 
 
 def _coordinates(given: Comparison, found: Sequence[Measure]) -> Variables:

@@ -13,11 +13,8 @@ FIELD = "field."
 CRITERIA = ("slide.displaced", "slide.failed", "slide.front_area")
 """Keys that decide what is counted and not what happens."""
 
-STOPPED = {Status.reached_wall: "a wall of the model", Status.not_settled: "the end of the run"}
+STOPPED = {Status.reached_wall: "the wall ahead", Status.not_settled: "the end of the run"}
 """What makes a run-out a lower bound."""
-
-BIASED = "the difference is biased"
-"""What follows where these are few."""
 
 
 def doubts(given: Comparison) -> list[str]:
@@ -89,11 +86,21 @@ def _of_runouts(given: Comparison, scenario: int) -> Iterator[str]:
         yield f"The realizations of {name} were computed by several versions of the solver."
     for status, what in STOPPED.items():
         if bounds := int(np.count_nonzero(results.has_status([status])[given.ids])):
-            follows = f"so is each number of {name} but P(slide)" if given.is_cut_short(scenario) else BIASED
+            means = "" if given.is_cut_short(scenario) else "; so few of them are in the means as far as they came"
             yield (
                 f"In {name} {what} stopped {bounds} of the {len(given.ids)} realizations: there the run-out is a lower "
-                f"bound, and {follows}."
+                f"bound, and so are the numbers of {name} that are told as at least so much{means}."
             )
+    if behind := int(np.count_nonzero(given.reached_behind(scenario))):
+        yield (
+            f"In {name} {behind} of the {len(given.ids)} realizations reach the wall behind the crest, which disturbs "
+            "their run-outs: with more ground there they may be longer or shorter."
+        )
+    if given.has_least_volumes(scenario) and not given.is_cut_short(scenario):
+        yield (
+            f"The sliding volume of {name} is a lower bound: more ground would move, had the wall behind the crest or "
+            "the end of the run not kept it from that."
+        )
 
 
 def _receptors(given: Comparison) -> Iterator[str]:

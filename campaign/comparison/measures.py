@@ -6,9 +6,17 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from campaign.comparison.scenarios import Comparison
-from campaign.statistics.paired import Difference, mean_difference, proportion_difference, quantile_difference
+from campaign.statistics.intervals import Sample, quantile_interval
+from campaign.statistics.paired import (
+    Difference,
+    bounded_proportion_difference,
+    mean_difference,
+    proportion_difference,
+    quantile_difference,
+)
 from campaign.statistics.receptors import QUANTILES, REACHED
 
 REACH_PROBABILITY = dict(zip(REACHED, ("front_reach_probability", "moved_ground_reach_probability"), strict=True))
@@ -51,17 +59,17 @@ def measures(given: Comparison, distances: Sequence[float]) -> list[Measure]:
     distances : sequence of float
         In m; the probability of a longer run-out is compared at each.
     """
-    of_slides = [
+    return [
+        _slide_probability(given),
         *_runouts(given),
         *(_exceedance(given, distance) for distance in distances),
         *_reach(given),
         _against_first(
             given,
             ("sliding_volume_mean", "mean sliding volume, 0 without a slide", "m3/m"),
-            lambda other: mean_difference(given.volumes(0), given.volumes(other), given.confidence),
+            lambda other: _bounded_mean(given, given.volumes, given.has_least_volumes, other),
         ),
     ]
-    return [_slide_probability(given), *(_as_bounded(given, each) for each in of_slides)]
 
 
 def _against_first(
@@ -74,19 +82,26 @@ def _against_first(
     return Measure(*about, dim, at, [difference(other) for other in range(1, len(given.names))])
 
 
-def _as_bounded(given: Comparison, measure: Measure) -> Measure:
-    """Return a measure without the bounds that slides cut short leave open: they would have come farther."""
-    most = 1.0 if measure.unit == "1" else math.inf
+def _bounded_mean(
+    given: Comparison,
+    values: Callable[[int], Sample],
+    is_least: Callable[[int], bool],
+    other: int,
+    among: NDArray[np.bool_] | None = None,
+) -> Difference:
+    """Return a difference of means, without the bound that it loses where one of them is a lower bound."""
+    first, there = (values(k) if among is None else values(k)[among] for k in (0, other))
+    found = mean_difference(first, there, given.confidence)
+    return _opened(found, is_least(0), is_least(other))._replace(
+        first_is_least=is_least(0), other_is_least=is_least(other)
+    )
 
-    def bounded(other: int, found: Difference) -> Difference:
-        interval = found.interval
-        if found.first < most and given.is_cut_short(0):
-            interval = interval._replace(lower=-math.inf)
-        if found.other < most and given.is_cut_short(other):
-            interval = interval._replace(upper=math.inf)
-        return found._replace(interval=interval)
 
-    return measure._replace(differences=[bounded(*each) for each in enumerate(measure.differences, start=1)])
+def _opened(found: Difference, below: bool, above: bool) -> Difference:
+    """Return a difference without the bounds that are not known."""
+    interval = found.interval
+    lower, upper = -math.inf if below else interval.lower, math.inf if above else interval.upper
+    return found._replace(interval=interval._replace(lower=lower, upper=upper))
 
 
 def _slide_probability(given: Comparison) -> Measure:
@@ -102,17 +117,17 @@ def _runouts(given: Comparison) -> Iterator[Measure]:
     yield _against_first(
         given,
         ("runout_mean", "mean run-out, 0 without a slide", "m"),
-        lambda other: mean_difference(given.runouts(0), given.runouts(other), given.confidence),
+        lambda other: _bounded_mean(given, given.runouts, given.is_cut_short, other),
     )
     yield _against_first(
         given,
         ("runout_mean_given_all_slide", "mean run-out where all slide", "m"),
-        lambda other: mean_difference(given.runouts(0)[sliding], given.runouts(other)[sliding], given.confidence),
+        lambda other: _bounded_mean(given, given.runouts, given.is_cut_short, other, sliding),
     )
     for share, name in QUANTILES.items():
         yield _against_first(
             given,
-            ("runout_quantile", f"{name} of run-out", "m"),
+            ("runout_quantile", f"{name} of run-out, 0 without a slide", "m"),
             partial(_quantile_difference, given, share),
             "quantile",
             share,
@@ -120,15 +135,21 @@ def _runouts(given: Comparison) -> Iterator[Measure]:
 
 
 def _quantile_difference(given: Comparison, share: float, other: int) -> Difference:
-    return quantile_difference(given.runouts(0), given.runouts(other), share, given.confidence)
+    """Return a difference of quantiles, without a bound that slides cut short leave open."""
+    each = [quantile_interval(given.runouts(k), share, given.confidence, given.cut_short(k)) for k in (0, other)]
+    found = quantile_difference(given.runouts(0), given.runouts(other), share, given.confidence)
+    is_open = [one.is_least or one.upper == math.inf for one in each]
+    return _opened(found, *is_open)._replace(first_is_least=each[0].is_least, other_is_least=each[1].is_least)
 
 
 def _exceedance(given: Comparison, distance: float) -> Measure:
     return _against_first(
         given,
         ("exceedance", f"P(run-out above {distance:g} m)", "1"),
-        lambda other: proportion_difference(
-            given.runouts(0) > distance, given.runouts(other) > distance, given.confidence
+        lambda other: bounded_proportion_difference(
+            (given.runouts(0) > distance, given.runouts(other) > distance),
+            (given.cut_short(0), given.cut_short(other)),
+            given.confidence,
         ),
         "distance",
         distance,
@@ -149,5 +170,7 @@ def _reach(given: Comparison) -> Iterator[Measure]:
 
 
 def _reach_difference(given: Comparison, what: str, receptor: str, other: int) -> Difference:
-    first, there = (given.reaches(scenario, what, receptor) for scenario in (0, other))
-    return proportion_difference(first, there, given.confidence)
+    reached, may_come = (
+        (read(0, what, receptor), read(other, what, receptor)) for read in (given.reaches, given.may_reach)
+    )
+    return bounded_proportion_difference(reached, may_come, given.confidence)

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from campaign.errors import RefusalError
 from campaign.record import FINAL_RUNOUT, LOWER_BOUND, USABLE, Front
 from campaign.results.results import Results, read_results
+from campaign.results.walls import REACHED_BEHIND
 from campaign.scene.comparison import differing_values
 from campaign.statistics.intervals import Sample
 from campaign.statistics.outcomes import FEW
-from campaign.statistics.receptors import REACHED
+from campaign.statistics.receptors import REACHED, may_still_come, still_moves
 from campaign.terminal import counted
 
 SAME_PLACE = 1e-6
@@ -84,9 +85,29 @@ class Comparison:
 
     def is_cut_short(self, scenario: int) -> bool:
         """Whether walls or the end of the run cut so many slides short that numbers of them are lower bounds."""
-        results = self.scenarios[scenario]
-        cut = np.count_nonzero(results.has_status(LOWER_BOUND)[self.ids])
-        return bool(cut > FEW * np.count_nonzero(self.has_slid(scenario)))
+        return self._are_many(self.cut_short(scenario), scenario)
+
+    def cut_short(self, scenario: int) -> NDArray[np.bool_]:
+        """Return which realizations may have come farther than they did, (realization,)."""
+        return self.scenarios[scenario].has_status(LOWER_BOUND)[self.ids]
+
+    def reached_behind(self, scenario: int) -> NDArray[np.bool_]:
+        """Return which slides have reached the wall behind the crest, (realization,)."""
+        is_there = self.scenarios[scenario].data[REACHED_BEHIND].values[self.ids] == 1
+        return np.asarray(self.has_slid(scenario) & is_there)
+
+    def still_moves(self, scenario: int) -> NDArray[np.bool_]:
+        """Return in which slides any ground still moved at the end, (realization,)."""
+        return still_moves(self.scenarios[scenario].data)[self.ids]
+
+    def has_least_volumes(self, scenario: int) -> bool:
+        """Whether more would move in so many slides that the mean volume is a lower bound: walls, or the end."""
+        which = (self.cut_short, self.reached_behind, self.still_moves)
+        return self._are_many(np.logical_or.reduce([each(scenario) for each in which]), scenario)
+
+    def _are_many(self, which: NDArray[np.bool_], scenario: int) -> bool:
+        """Whether some of the slides are more than a few."""
+        return bool(np.count_nonzero(which) > FEW * np.count_nonzero(self.has_slid(scenario)))
 
     def has_slid(self, scenario: int) -> NDArray[np.bool_]:
         """Whether each realization slid, (realization,)."""
@@ -105,6 +126,11 @@ class Comparison:
         data = self.scenarios[scenario].data
         reached = data[what].values[self.ids, _receptors(self.scenarios[scenario]).index(receptor)]
         return np.asarray(reached == 1.0)
+
+    def may_reach(self, scenario: int, what: str, receptor: str) -> NDArray[np.bool_]:
+        """Whether it was cut short before that, and may have reached it, (realization,)."""
+        data = self.scenarios[scenario].data.isel(receptor=_receptors(self.scenarios[scenario]).index(receptor))
+        return may_still_come(data)[what][self.ids]
 
     def changes(self, scenario: int) -> list[Change]:
         """Return the keys in which the scene of a scenario differs from the first one's."""

@@ -51,8 +51,8 @@ def _row(measure: Measure, found: Difference) -> tuple[str, ...]:
     def number(value: float, sign: str = "") -> str:
         return f"{factor * value:{sign}{digits}}"
 
-    estimate, lower, upper, n = found.interval
-    is_least = lower == -math.inf, upper == math.inf  # the number of the first campaign, and that of the other
+    estimate, lower, upper, n, _ = found.interval
+    is_least = found.first_is_least, found.other_is_least
     errors = (number(each) if each == each else "" for each in (found.paired_error, found.unpaired_error))
     estimates = (
         f"{'at least ' if least else ''}{number(each)} {unit}" if each == each else "none"
@@ -63,7 +63,7 @@ def _row(measure: Measure, found: Difference) -> tuple[str, ...]:
         (False, True): f"at least {number(lower, '+')}" if lower == lower else "too few",
         (True, False): f"at most {number(upper, '+')}" if upper == upper else "too few",
         (True, True): "open",
-    }[is_least]
+    }[lower == -math.inf, upper == math.inf]
     side = {(False, True): "at least ", (True, False): "at most "}.get(is_least, "")
     difference = f"{side}{number(estimate, '+')} {points}" if n else ""
     return (measure.words, *estimates, difference, bounds, *errors)

@@ -13,7 +13,7 @@ from campaign.comparison.table import as_text
 from campaign.errors import RefusalError
 from campaign.record import Status
 from campaign.report.figures.comparison import comparison as draw_comparison
-from campaign.statistics.paired import mean_difference
+from campaign.statistics.paired import mean_difference, proportion_difference
 
 RUNOUTS = np.random.default_rng(1).normal(10.0, 1.0, 12)
 STRONGER = "soil.cohesion.mean=22 kPa"
@@ -103,7 +103,7 @@ def test_bounds_counts_and_other_receptors_are_told(tmp_path):
 
 
 def test_a_difference_from_slides_cut_short_has_one_bound(tmp_path):
-    """Walls stopped 4 of 12 in the other campaign: each of its numbers but P(slide) is at least so large."""
+    """The wall stopped 4 of 12 in the other campaign: what they would change of it is at least so large."""
     free = keep(tmp_path / "free", RUNOUTS, reaches=[1] * 4 + [0] * 8)
     statuses = [*[Status.reached_wall] * 4, *[Status.slid] * 8]
     walled = keep(tmp_path / "walled", RUNOUTS - 2.0, STRONGER, statuses=statuses, reaches=[1] * 12)
@@ -111,7 +111,14 @@ def test_a_difference_from_slides_cut_short_has_one_bound(tmp_path):
     found = by_words(given, 9.0)
     plain = mean_difference(RUNOUTS, RUNOUTS - 2.0, 0.95)
     closed = {words for words, difference in found.items() if np.isfinite(difference.interval.upper)}
-    assert closed == {"P(slide)", *(words for words in found if "reaches" in words)}  # all reach both places already
+    assert closed == {words for words in found if words.startswith("P(")}  # which 4 of 12 leave a bound
+    beyond, cut = RUNOUTS - 2.0 > 9.0, np.arange(12) < 4
+    share, all_of_them = (proportion_difference(RUNOUTS > 9.0, which, 0.95) for which in (beyond, beyond | cut))
+    exceeded = found["P(run-out above 9 m)"]
+    assert exceeded[:2] == share[:2]
+    assert exceeded.interval[:3] == (share.interval.estimate, share.interval.lower, all_of_them.interval.upper)
+    assert (exceeded.first_is_least, exceeded.other_is_least) == (False, True)
+    assert not any(each.other_is_least for words, each in found.items() if "reaches" in words)  # all are there
     mean = found["mean run-out, 0 without a slide"]
     assert mean.interval.lower == pytest.approx(plain.interval.lower)
     told = " ".join(as_text(given, measures(given, [9.0]), doubts(given)).split())
@@ -119,9 +126,32 @@ def test_a_difference_from_slides_cut_short_has_one_bound(tmp_path):
     back = " ".join(as_text(compare([walled, free]), measures(compare([walled, free]), []), []).split())
     assert f"at least {RUNOUTS.mean() - 2.0:.2f} m {RUNOUTS.mean():.2f} m at most +2.00 m at most +2.00" in back
     assert doubts(given) == [
-        "In walled a wall of the model stopped 4 of the 12 realizations: there the run-out is a lower bound, and so is "
-        "each number of walled but P(slide)."
+        "In walled the wall ahead stopped 4 of the 12 realizations: there the run-out is a lower bound, and so are the "
+        "numbers of walled that are told as at least so much."
     ]
+
+
+def test_a_median_without_a_slide_is_no_lower_bound_whatever_stopped_the_slides(tmp_path):
+    """8 of 12 do not slide, and the wall stopped the others: the median is 0 m, not at least 0 m."""
+    statuses = [*[Status.no_slide] * 8, *[Status.reached_wall] * 4]
+    stands = keep(tmp_path / "stands", RUNOUTS, statuses=statuses)
+    found = by_words(compare([stands, keep(tmp_path / "free", RUNOUTS, STRONGER)]))
+    median = found["median of run-out, 0 without a slide"]
+    assert (median.first, median.first_is_least) == (0.0, False)
+    assert found["95 % quantile of run-out, 0 without a slide"].first_is_least
+
+
+def test_the_wall_behind_the_crest_bounds_the_volume_alone(tmp_path):
+    one, other = keep(tmp_path / "one", RUNOUTS), keep(tmp_path / "other", RUNOUTS, STRONGER)
+    data = xr.load_dataset(other / "results.nc", decode_timedelta=False)
+    data["reached_wall_behind"].values[:5] = 1
+    data.to_netcdf(other / "results.nc")
+    given = compare([one, other])
+    least = {words for words, each in by_words(given, 9.0).items() if each.other_is_least}
+    assert least == {"mean sliding volume, 0 without a slide"}
+    behind, volume = doubts(given)
+    assert behind.startswith("In other 5 of the 12 realizations reach the wall behind the crest, which disturbs their")
+    assert volume.startswith("The sliding volume of other is a lower bound")
 
 
 def test_between_two_campaigns_cut_short_a_difference_is_open(tmp_path):
