@@ -93,7 +93,7 @@ QUANTITIES: dict[str, Measured] = {
         (),
         "m3/m",
         "volume that has come apart and lies ahead of the slide, per metre run",
-        compute=lambda end: detached_volume(end.particles, end.start, end.model.surface, end.model.allocate_grid()),
+        compute=lambda end: detached_volume(end.particles, end.start, end.model.surface, end.model.particle_spacing),
     ),
     "retrogression": Measured(
         (),

@@ -48,7 +48,7 @@ def stretch_flagged(basis, length=12.0):
     start, level = copy_particles(strip), Surface(np.array([0.0, 7.0 * length]), np.zeros(2), toe_x=7.0 * length)
     grid, work = grid_without_walls(7.0 * length, 6.0, 1.0, BASES[basis]), allocate_workspace(x.size)
     stretch, step = 1.0, 0.01
-    while detached_volume(strip, start, level, grid) == 0.0 and stretch < STRETCHES[-1]:
+    while detached_volume(strip, start, level, 0.5) == 0.0 and stretch < STRETCHES[-1]:
         advance(strip, grid, work, (elastic_soil(1e-9, 0.0),), MUSL, 0.0, 0.0, step, 1)
         stretch += step
     return stretch

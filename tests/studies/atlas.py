@@ -118,7 +118,7 @@ def fracture_entry(basis):
         f"{basis}: stretch, two particles a cell and direction",
         "neighbours share no node: the body breaks without cause",
         f"begins at {may:.1f}, complete at {must:.1f}",
-        f"{first:.1f}, {last:.1f}; a strip that tears is flagged from {space.stretch_flagged(basis):.1f} on",
+        f"{first:.1f}, {last:.1f}; a strip is flagged from {space.stretch_flagged(basis):.1f} on",
         "the record is flagged, `detached_volume` says how much is ahead of the gap, and the report in how many slides",
     )
 

@@ -80,8 +80,8 @@ def test_front_is_not_far_beyond(bars):
 
 
 def test_bars_that_have_come_apart_are_noticed(bars):
-    """Up to a percent of them flies ahead of what the nodes join."""
-    apart = detached_volume(bars.history.particles, bars.start, bars.model.surface, bars.model.allocate_grid())
+    """Up to a percent of them flies ahead of what is joined."""
+    apart = detached_volume(bars.history.particles, bars.start, bars.model.surface, bars.model.particle_spacing)
     assert 0.0 < apart < 0.01 * bars.start.volume.sum()
 
 
