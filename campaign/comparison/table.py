@@ -55,7 +55,7 @@ def _row(measure: Measure, found: Difference) -> tuple[str, ...]:
     is_least = found.first_is_least, found.other_is_least
     errors = (number(each) if each == each else "" for each in (found.paired_error, found.unpaired_error))
     estimates = (
-        f"{'at least ' if least else ''}{number(each)} {unit}" if each == each else "none"
+        _as_bound(f"{number(each)} {unit}", each, least) if each == each else "none"
         for each, least in zip((found.first, found.other), is_least, strict=True)
     )
     bounds = {
@@ -67,3 +67,10 @@ def _row(measure: Measure, found: Difference) -> tuple[str, ...]:
     side = {(False, True): "at least ", (True, False): "at most "}.get(is_least, "")
     difference = f"{side}{number(estimate, '+')} {points}" if n else ""
     return (measure.words, *estimates, difference, bounds, *errors)
+
+
+def _as_bound(told: str, value: float, is_least: bool) -> str:
+    """Return a number in words as a lower bound, if it is one."""
+    if not is_least:
+        return told
+    return f"at least {told}" if value else f"{told} or more"

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from campaign.record import SLID, Status
+from campaign.record import Status
 from campaign.report import estimates
 from campaign.report.aimed import from_all_models, is_aimed
 from campaign.report.cut_short import Cause, causes, disturbed, in_one_clause
@@ -174,9 +174,10 @@ def _parts(results: Results, mean: Interval) -> str:
     sampling, found = f"sampling ±{mean.half_width:.2f} m", results.discretisation
     if found is None or not has_mesh_error(found):
         return f"{sampling}; what the mesh adds is not estimated"
-    change, cell = found.interval, results.scene.numerics.cell
+    change, cell, came = found.interval, results.scene.numerics.cell, so_far(results.outcomes)
+    changes = f"changes it{came}," if came else "changes it"
     return (
-        f"as counted with cells of {cell:g} m, {sampling}; half the cell changes it by {change.estimate:+.2f} ± "
+        f"as counted with cells of {cell:g} m, {sampling}; half the cell {changes} by {change.estimate:+.2f} ± "
         f"{change.half_width:.2f} m, and the interval holds up to twice that"
     )
 

@@ -88,6 +88,6 @@ def bounded_behind(results: Results) -> str:
     if not told:
         return ""
     return (
-        f"{told}: there the volume of the slide and the length that moves behind the crest are lower bounds. The "
-        "run-out is not one; it counts as it was measured, and the wall disturbs it, longer or shorter."
+        f"{told}: there the volume of the slide and the length that moves behind the crest are lower bounds. Run-outs, "
+        "and what reaches a place, count as they were measured, with more ground there they may be larger or smaller."
     )

@@ -18,7 +18,10 @@ from campaign.terminal import counted
 
 NOT_ESTIMATED = "not estimated"
 
-LOST = dict.fromkeys(FAILED, "failed") | {Status.reached_wall: "reached the wall ahead"}
+LOST = dict.fromkeys(FAILED, "failed") | {
+    Status.reached_wall: "reached the wall ahead",
+    Status.not_settled: "may have come farther after the end time",
+}
 """Ends of a run after which its run-out is not that of the slope, in words."""
 
 NO_RESULT = "no realization with a result"
@@ -147,7 +150,8 @@ def _discretisation(results: Results) -> list[Row]:
         if results.scene.campaign.discretisation_pairs:
             remedy = "the campaign ended before its pairs with half the cell"
         return [Row("Discretisation", "mean run-out of a slide", NOT_ESTIMATED, remedy, "")]
-    change, name = found.interval, f"mean run-out of a slide, changed by cells of {found.cell / 2:g} m"
+    change, came = found.interval, so_far(results.outcomes)
+    name = f"mean run-out of a slide{came}, changed by cells of {found.cell / 2:g} m"
     if change.n == 0:
         return [Row("Discretisation", name, NOT_ESTIMATED, _why_no_pair(results, found), "0")]
     return [Row("Discretisation", name, *_signed(change), str(change.n))]

@@ -24,7 +24,7 @@ NAMED = 3
 """Inputs that are named in a sentence."""
 
 
-UNKNOWN = "not known: the runs failed or a wall of the model was in their way"
+UNKNOWN = "not known: the runs failed or the wall ahead was in their way"
 
 
 class EffectRow(NamedTuple):
@@ -204,9 +204,11 @@ def _left_out(results: Results, ranking: Ranking | None) -> str:
             f"{counted(given.slides, 'slide')} that the wall ahead stopped; with their whole run-outs it may be "
             "another."
         )
-    if ranking is not None and unsettled:
+    if unsettled and (ranking is not None or effects_of(results) is not None):
+        whose, count = ("slide whose front", "counts") if unsettled == 1 else ("slides whose fronts", "count")
         told.append(
-            f"{counted(unsettled, 'slide')} whose fronts may have come farther after the end count as far as they came."
+            f"{unsettled:,} {whose} may have come farther after the end {count} with the distance until then, also "
+            "where slides are computed again with more of an input."
         )
     return " ".join(told)
 

@@ -2,11 +2,10 @@
 
 Soil that is drawn out to twice its length has cracked. So particles are joined where their domains touch, each drawn
 out to twice the spacing of the lattice: where their centres are no more than two spacings apart in either direction.
-That is one cell where there are four particles in a cell, and it grows with the cell: where ground has been cracked
-more finely than its particles lie nobody can tell. The nodes of the grid join what is farther apart, from two particles
-that are ``h + 2 l_p`` apart on as it happens, and up to ``2 (h + l_p)``: 5 m in cells of 2 m. Beyond, no stress crosses
-the gap, however strong the ground (numerical fracture). What lies ahead of a gap is debris that moves on by itself,
-and its place says nothing about the slide.
+That is one cell where there are four particles in a cell. It grows with the cell, as particles show no crack that is
+finer than they lie. Nodes are no measure of it: in cells of 2 m they join particles that are up to 3 m apart, and as
+it happens up to 5 m, ``2 (h + l_p)``, beyond which no stress crosses a gap, however strong the ground (numerical
+fracture). What lies ahead of a gap is debris that moves on by itself, and its place says nothing about the slide.
 """
 
 import numpy as np

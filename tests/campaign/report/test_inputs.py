@@ -141,7 +141,10 @@ def test_slides_that_a_wall_stopped_have_no_part_in_what_the_soil_does(results):
     moving = np.where(stopped, int(Status.not_settled), results.data["status"].values)
     still = Results(results.data.assign(status=("realization", moving)), results.scene)
     told = sentences(still)[-1]
-    assert told == "20 slides whose fronts may have come farther after the end count as far as they came."
+    assert told == (
+        "20 slides whose fronts may have come farther after the end count with the distance until then, also where "
+        "slides are computed again with more of an input."
+    )
 
 
 @pytest.mark.parametrize("number", [0, 1])

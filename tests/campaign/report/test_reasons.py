@@ -85,8 +85,8 @@ def test_the_wall_behind_the_crest_disturbs_and_bounds_no_run_out(twenty):
     assert headline.tiles(disturbed) == headline.tiles(twenty)
     assert set(reasons_for_doubt(disturbed)) - set(reasons_for_doubt(twenty)) == {
         "5 of 20 slides reach the wall behind the crest: there the volume of the slide and the length that moves "
-        "behind the crest are lower bounds. The run-out is not one; it counts as it was measured, and the wall "
-        "disturbs it, longer or shorter."
+        "behind the crest are lower bounds. Run-outs, and what reaches a place, count as they were measured, with more "
+        "ground there they may be larger or smaller."
     }
     (row,) = by_source(disturbed, "Walls")
     assert (row.value, row.interval) == ("longer or shorter", "5 of 20 slides reach the wall behind the crest")
@@ -171,6 +171,8 @@ def test_walls_that_stop_all_slides_are_the_reason_that_is_given(twenty):
     assert change.interval == "of the first 4 realizations the wall ahead stopped all 4 that slid"
     (release,) = by_source(stopped, "Release")
     assert (release.value, release.interval) == ("not estimated", 'this run reached the wall ahead with "release"')
+    (moving,) = by_source(ended(twenty, moving=range(20), baseline=Status.not_settled, **pairs), "Release")
+    assert moving.interval == 'this run may have come farther after the end time with "release"'
     assert sentences(stopped) == [
         "It takes 30 slides that the wall ahead does not stop to say which property of the soil matters, and there are "
         "0; what the inputs do is told by slides that the wall ahead does not stop, and it stopped all of them."
