@@ -18,6 +18,7 @@ from campaign.statistics.receptors import (
     REACHED,
     RISE,
     ReceptorEstimate,
+    may_still_come,
     receptor_estimates,
     still_moves,
 )
@@ -62,7 +63,7 @@ class Place(NamedTuple):
     thrown_back : str
         That the wall ahead has a part in it, "" if it has none.
     so_far : str
-        In how many slides ground still moved at the end, "" if in none.
+        In how many slides ground still moved at the end, and how many more may come, "" if none.
     """
 
     name: str
@@ -128,7 +129,8 @@ def _place(results: Results, receptor: Receptor, reach: list[ReceptorEstimate]) 
     ahead += _distributions(data, alone, with_ahead & ~with_front, results.confidence, moves)
     slides, pushed = int(np.count_nonzero(with_front)), _pushed(with_ahead, with_front)
     comes = with_front | with_ahead
-    so_far = _so_far(comes, moves)
+    later = int(np.count_nonzero(may_still_come(data)["front_reaches"] & ~with_front))
+    so_far = _so_far(comes, moves, later)
     return Place(
         name,
         receptor.where,
@@ -142,16 +144,24 @@ def _place(results: Results, receptor: Receptor, reach: list[ReceptorEstimate]) 
     )
 
 
-def _so_far(comes: NDArray[np.bool_], moves: NDArray[np.bool_]) -> str:
-    """Say in how many of the slides that come to a place ground still moved at the end, "" if in none."""
+def _so_far(comes: NDArray[np.bool_], moves: NDArray[np.bool_], later: int) -> str:
+    """Say in how many of the slides that come to a place ground still moved at the end, and of how many more may come.
+
+    It is "" if in none.
+    """
     moving, slides = int(np.count_nonzero(comes & moves)), counted(int(np.count_nonzero(comes)), "slide")
-    if not moving:
-        return ""
-    return (
-        f"In {moving:,} of the {slides} that come here, ground somewhere still moved when the run ended: the largest "
-        "depths, velocities, fluxes and pressures are lower bounds there, and the rise of the ground is not the final "
-        "one. Raise numerics.end_time."
-    )
+    told = []
+    if moving:
+        told.append(
+            f"In {moving:,} of the {slides} that come here, ground somewhere still moved when the run ended: the "
+            "largest depths, velocities, fluxes and pressures are lower bounds there, and the rise of the ground is "
+            "not the final one. Raise numerics.end_time."
+        )
+    if later:
+        told.append(
+            f"In {later:,} more the front may come that was cut short; what arrives then, and when, is in no table."
+        )
+    return " ".join(told)
 
 
 def _thrown_back(results: Results, receptor: Receptor, comes: NDArray[np.bool_]) -> str:

@@ -129,6 +129,10 @@ def test_a_probability_that_few_leave_open_is_at_least_what_was_counted():
     )
     most = f"{100 * special.betaincinv(4, 1, 0.975):.3g} %"
     (tile,) = headline.reaches(Results(data, given.scene))
+    (place,) = places(Results(data, given.scene))
+    assert place.so_far == (
+        "In 1 more the front may come that was cut short; what arrives then, and when, is in no table."
+    )
     assert (tile.value, tile.interval) == ("at least 50 %", f"{100 * special.betaincinv(2, 3, 0.025):.2g} to {most}")
 
 
