@@ -10,13 +10,13 @@ from campaign.statistics.total import TOTAL, total_mean
 BOUNDS = ("checkpoint", "bound")
 EXACT = "(Clopper and Pearson)"
 
-CUT_SHORT = (
-    "a slide that the wall ahead or the end of the run has cut short (status reached_wall, not_settled) counts with "
-    "the distance it came"
+CUT = "that the wall ahead or the end of the run has cut short (status reached_wall, not_settled)"
+CUT_SHORT = f"a slide {CUT} counts with the distance it came"
+OPEN = (
+    f"a slide {CUT} before that counts as one that does not get beyond, which makes the estimate a lower bound, and "
+    "for the upper bound of the interval as one that does"
 )
 """What numbers of run-outs make of slides that may have come farther."""
-
-OPEN = f"{CUT_SHORT}, so that the estimate is a lower bound; for the upper bound of the interval it goes beyond"
 
 COMMENTS = {
     "exceedance": OPEN,

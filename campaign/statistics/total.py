@@ -13,8 +13,8 @@ TOTAL = (
     "may lie, with c the mean change with half the cell, the limit of small cells at first order. It holds the limits "
     "at any order of convergence of one or more, and those where smaller cells undo a part of the change. Half-widths: "
     "a of the mean, sqrt(a^2 + 4 b^2) of the mean plus 2 c, where b is that of c. Without pairs of run-outs, the mean "
-    "and its sampling error alone. Slides that a wall or the end of the run has cut short count with the distance they "
-    "came: where they are more than a few, the upper bound is infinite"
+    "and its sampling error alone. Slides that the wall ahead or the end of the run has cut short count with the "
+    "distance they came: where they are more than a few, the upper bound is infinite"
 )
 
 
