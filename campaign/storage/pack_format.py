@@ -1,12 +1,12 @@
 """A pack as bytes: the records of consecutive realizations as columns of an HDF5 file, behind a seal and a summary.
 
 The seal covers the whole file. A checksum for each row stands beside it, by which the whole rows of a damaged pack are
-told from the others.
+told from the others, and one of the units that they share.
 """
 
 import hashlib
 import io
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -25,6 +25,9 @@ from campaign.storage.seal import SIZE, check_bytes, seal_of, sealed
 VALUES = "values"
 """The group of the quantities."""
 
+UNITS = "units_sha256"
+"""The attribute with a checksum of the units, which all rows share; older packs have none."""
+
 READ_ERRORS = (OSError, KeyError, ValueError, RuntimeError, TypeError)
 """What HDF5 makes of damaged bytes."""
 
@@ -35,6 +38,7 @@ def to_bytes(columns: Columns) -> bytes:
     room = 1 << (len(front) - 1).bit_length()  # HDF5 leaves a power of two to its user
     with h5py.File(buffer, "w", userblock_size=room) as file:
         file.attrs["scene"] = columns.scene
+        file.attrs[UNITS] = _checksum_of_units(columns.units)
         file["realization"] = columns.realizations
         file["status"] = columns.statuses
         file.create_dataset("reason", data=columns.reasons, dtype=h5py.string_dtype())
@@ -128,10 +132,16 @@ def _row(file: h5py.File, row: int) -> Record:
     values = {name: plain(column[row]) for name, column in file[VALUES].items()}
     status = Status(int(file["status"][row]))
     units = read_units(file[VALUES])
+    if file.attrs.get(UNITS, _checksum_of_units(units)) != _checksum_of_units(units):
+        raise DamagedRecordError("The units do not match their checksum.")
     record = Record(int(file["realization"][row]), status, file["reason"].asstr()[row], values, units, _scene(file))
     if file["checksum"][row].decode() != _checksum(record):
         raise DamagedRecordError(f"Row {row} does not match its checksum.")
     return record
+
+
+def _checksum_of_units(units: Mapping[str, str]) -> str:
+    return hashlib.sha256(repr(sorted(units.items())).encode()).hexdigest()
 
 
 def _scene(file: h5py.File) -> str:

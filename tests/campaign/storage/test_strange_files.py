@@ -6,6 +6,7 @@ import os
 import socket
 import subprocess
 
+import h5py
 import numpy as np
 import pytest
 from records import GROUND, assert_same, make_record
@@ -171,6 +172,15 @@ def test_mutated_packs_give_whole_records_or_none(tmp_path, monkeypatch):
                 assert_same(record, make_record(record.realization))
                 whole += 1
     assert whole > 4
+
+
+def test_rows_of_a_pack_whose_units_are_damaged_are_not_whole(tmp_path):
+    path, content = tmp_path / "p00000.h5", pack_format.to_bytes(columns_of([make_record(k) for k in range(4)]))
+    path.write_bytes(content)
+    assert len(pack_format.whole_records(path)) == 4
+    with h5py.File(path, "r+") as file:
+        file["values/runout"].attrs["units"] = "s"
+    assert pack_format.whole_records(path) == []
 
 
 def test_a_pack_on_which_the_library_does_not_end_is_given_up(level, tmp_path, monkeypatch):
