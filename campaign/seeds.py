@@ -17,9 +17,10 @@ class Stream(IntEnum):
 
     FIELD = 0
     BOOTSTRAP = 1
+    LAYER = 2
 
 
-def generator(campaign_seed: int, stream: Stream, realization: int) -> np.random.Generator:
+def generator(campaign_seed: int, stream: Stream, realization: int, layer: int = 0) -> np.random.Generator:
     """Open the random stream of one realization.
 
     Parameters
@@ -30,6 +31,8 @@ def generator(campaign_seed: int, stream: Stream, realization: int) -> np.random
         Purpose of the numbers.
     realization : int
         Identity of the realization, zero or more.
+    layer : int
+        Number of the layer whose numbers they are, from 1; 0 for what layers have in common.
 
     Returns
     -------
@@ -50,5 +53,5 @@ def generator(campaign_seed: int, stream: Stream, realization: int) -> np.random
         raise ValueError(
             f"Seed {campaign_seed} and realization {realization} do not name a random stream; both must be >= 0."
         )
-    sequence = np.random.SeedSequence(campaign_seed, spawn_key=(int(stream), realization))
+    sequence = np.random.SeedSequence(campaign_seed, spawn_key=(int(stream), realization, *([layer] if layer else [])))
     return np.random.Generator(np.random.Philox(sequence))

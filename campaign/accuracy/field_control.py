@@ -9,8 +9,13 @@ value has shaped what it is compared with, and the mean stays unbiased (cross-fi
 
 import numpy as np
 
+from campaign.fields.marginals import Lognormal
 from campaign.fields.properties import marginals
 from campaign.scene import Scene
+from campaign.scene.ground_surface import surface_of
+from campaign.scene.layers import interfaces_of, layer_at, layer_scenes, random_properties
+from campaign.simulation.field_summary import box_map
+from campaign.simulation.scene_sampler import reference_grid
 from campaign.statistics.intervals import Sample
 from campaign.statistics.ridge import Matrix, ridge
 
@@ -26,20 +31,36 @@ def deviations(field_maps: Matrix, scene: Scene) -> Matrix:
     Parameters
     ----------
     field_maps : array (n, property, row, column)
-        Means of ln(property) over the boxes; NaN without ground, and in realizations without a result.
+        Means of ln(property) over the boxes; NaN where it is not random, and in realizations without a result.
     scene : Scene
         Gives the distributions.
 
     Returns
     -------
     array (n, m)
-        Of the boxes with ground.
+        Of the boxes in which the property is random.
     """
-    laws = [*marginals(scene).values()]
-    mean = np.array([law.log_mean for law in laws])[:, None, None]
-    sigma = np.array([law.sigma for law in laws])[:, None, None]
-    has_ground = np.isfinite(field_maps).any(axis=0)
-    return np.asarray(((field_maps - mean) / sigma)[:, has_ground])
+    mean, sigma = _distribution(scene)
+    has_value = np.isfinite(field_maps).any(axis=0)
+    return np.asarray(((field_maps - mean) / sigma)[:, has_value])
+
+
+def _distribution(scene: Scene) -> tuple[Matrix, Matrix]:
+    """Return the mean of ln(property) in each box, and the standard deviation of a point in it."""
+    laws = [marginals(layer) for layer in layer_scenes(scene)]
+    rows = [row.name for row in random_properties(scene)]
+    of_layers = np.array([[_moments(law.get(name)) for law in laws] for name in rows])
+    if not scene.layer:
+        mean, sigma = of_layers[:, 0].T[:, :, None, None]
+        return mean, sigma
+    surface = surface_of(scene.geometry)
+    grid = reference_grid(scene, surface.width, surface.top)
+    boxes, layer = box_map(surface, grid), layer_at(interfaces_of(scene), *np.meshgrid(grid.x, grid.y))
+    return boxes.averages(of_layers[:, layer, 0]), boxes.averages(of_layers[:, layer, 1])
+
+
+def _moments(law: Lognormal | None) -> tuple[float, float]:
+    return (np.nan, np.nan) if law is None else (law.log_mean, law.sigma)
 
 
 def controlled(outcomes: Sample, field: Matrix) -> Sample:

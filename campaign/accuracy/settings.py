@@ -10,7 +10,7 @@ from campaign.accuracy.pursuit import Ladder, Model
 from campaign.errors import RefusalError, SceneError
 from campaign.scene import Scene
 from campaign.scene.cost import realization_seconds
-from campaign.scene.variant import variant_of
+from campaign.scene.variant import in_all_layers, variant_of
 
 OWN = "own"
 """The name of the scene as it is."""
@@ -77,7 +77,7 @@ def _with(scene: Scene, name: str) -> Scene | None:
     cell, stiffness = SETTINGS[name]
     changes = [
         f"numerics.cell={cell * scene.numerics.cell!r} m",
-        f"soil.young_modulus={stiffness * scene.soil.young_modulus!r} Pa",
+        *in_all_layers(scene, "soil.young_modulus", lambda soil: f"{stiffness * soil.young_modulus!r} Pa"),
     ]
     try:
         return variant_of(scene, changes)

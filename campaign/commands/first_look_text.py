@@ -14,12 +14,13 @@ from campaign.scene.cost import (
     with_more_of_an_input,
 )
 from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, TYPICAL_SLIDE, FirstLook
+from campaign.scene.layer_table import HEADINGS, layer_rows
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.outlook import may_slide, outlook
 from campaign.scene.sections import Softening
 from campaign.scene.softening import RING_SHEAR, is_brittle, softening_words
 from campaign.simulation.field_size import FieldSize
-from campaign.terminal import data_size, duration, paragraph
+from campaign.terminal import aligned, as_sentence, data_size, duration, paragraph
 
 MARGIN = 20
 """Characters before the text, which hold its heading."""
@@ -27,11 +28,13 @@ MARGIN = 20
 
 def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
     """Return what is known of a scene before it is run, a paragraph for each matter."""
+    layers = {"layers": _layers(scene)} if scene.layer else {}
     paragraphs = {
         "ground": _ground(look),
+        **layers,
         "toe": _toe(scene, look),
         "factor of safety": _factors(look),
-        "softening": _softening(scene.soil.softening),
+        "softening": _softenings(scene),
         "what to expect": outlook(look, is_brittle(scene, look.height)),
         "time": _time(scene, look),
         "mesh": _mesh(scene),
@@ -40,7 +43,7 @@ def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
         "memory": f"About {data_size(rank_bytes(scene) + size.least)} for each rank (process); the results take "
         f"{data_size(dataset_bytes(scene))}.",
     }
-    lines = [paragraph(heading, text, MARGIN) for heading, text in paragraphs.items()]
+    lines = [paragraph(heading, text, MARGIN) if heading != "layers" else text for heading, text in paragraphs.items()]
     return "\n".join([f"{scene.title}: a valid scene.", *lines])
 
 
@@ -83,11 +86,23 @@ def _circle(look: FirstLook, circle: SlipCircle | None) -> str:
     return f" on a circle from x = {circle.entry:.3g} m to {circle.exit:.3g} m, at most {depth:.2g} m deep"
 
 
+def _layers(scene: Scene) -> str:
+    """Return the table of the layers, from the surface down."""
+    lines = aligned([HEADINGS._replace(name=""), *layer_rows(scene)])
+    headings = ["  layers", *[""] * (len(lines) - 1)]
+    return "\n".join(f"{heading.ljust(MARGIN)}{line}" for heading, line in zip(headings, lines, strict=True))
+
+
+def _softenings(scene: Scene) -> str:
+    """Say how strength falls, for layers by themselves where they differ."""
+    return as_sentence(told_by_layer(scene, lambda layer: _softening(layer.soil.softening)))
+
+
 def _softening(softening: Softening) -> str:
     if softening.law == "none":
-        return "None: strength stays at its peak."
+        return "none: strength stays at its peak"
     words = softening_words(softening)
-    return f"{softening.law.capitalize()}: {words}; {RING_SHEAR}."
+    return f"{softening.law}: {words}; {RING_SHEAR}"
 
 
 def _time(scene: Scene, look: FirstLook) -> str:

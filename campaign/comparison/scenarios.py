@@ -13,6 +13,7 @@ from campaign.record import FINAL_RUNOUT, LOWER_BOUND, USABLE, Front
 from campaign.results.results import Results, read_results
 from campaign.results.walls import REACHED_BEHIND
 from campaign.scene.comparison import differing_values
+from campaign.scene.document import numbered_from_one
 from campaign.statistics.intervals import Sample
 from campaign.statistics.outcomes import FEW
 from campaign.statistics.receptors import REACHED, may_still_come, still_moves
@@ -135,7 +136,7 @@ class Comparison:
     def changes(self, scenario: int) -> list[Change]:
         """Return the keys in which the scene of a scenario differs from the first one's."""
         first, other = (self.scenarios[number].scene.identity() for number in (0, scenario))
-        return [Change(key, *texts) for key, texts in differing_values(first, other).items()]
+        return [Change(numbered_from_one(key), *texts) for key, texts in differing_values(first, other).items()]
 
     def _of_slides(self, scenario: int, quantity: str) -> Sample:
         values = self.scenarios[scenario].data[quantity].values[self.ids]

@@ -156,8 +156,3 @@ def raised_to_floor(drawn: Mapping[str, Array], scene: Any) -> dict[str, Array]:
 def marginals(scene: Any) -> dict[str, Lognormal]:
     """Return the distribution of each random property of a scene by name, in the order of the table."""
     return {row.name: law for row in PROPERTIES if (law := row.distribution(scene)) is not None}
-
-
-def random_properties(scene: Any) -> tuple[SoilProperty, ...]:
-    """Return the properties that are random in a scene, in the order of the table."""
-    return tuple(BY_NAME[name] for name in marginals(scene))

@@ -7,7 +7,7 @@ Rezania and Mousavi Nezhad. Which properties there are says `campaign.fields.pro
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,12 +36,16 @@ class Strengths:
     names : tuple of str
         Of the n properties, see `campaign.fields.properties`.
     values : ndarray of shape (n, ny, nx)
-        In SI units; NaN in cells that the sampler left out as not in the ground.
+        In SI units, of the layer in which the centre of a cell lies; NaN in cells that the sampler left out as not in
+        the ground, and where a property that is random in another layer is not.
+    by_layer : tuple of ndarrays of shape (n, ny, nx)
+        The values that each of several layers has, or would have, in all cells; not random ones too. Empty for one.
     """
 
     grid: ReferenceGrid
     names: tuple[str, ...]
     values: Array
+    by_layer: tuple[Array, ...] = ()
 
     def __getitem__(self, name: str) -> Array:
         """Return the values of a property, shape (ny, nx)."""
@@ -65,8 +69,10 @@ class Strengths:
         }
         return xr.Dataset(fields, places)
 
-    def at(self, x: Array, y: Array) -> dict[str, Array]:
+    def at(self, x: Array, y: Array, layer: NDArray[np.integer[Any]] | int = 0) -> dict[str, Array]:
         """Read the properties, by name, at the initial places `x`, `y` [m] of particles; each of the shape of `x`.
+
+        A cell that an interface cuts has the soil of several layers, and `layer` is the number of the particle's own.
 
         Raises
         ------
@@ -75,12 +81,38 @@ class Strengths:
         """
         row, column = self.grid.index(x, y)
         values = self.values[:, row, column]
+        for number, own in enumerate(self.by_layer):
+            values = np.where(layer == number, own[:, row, column], values)
         if missing := np.flatnonzero(np.isnan(values[0])).tolist():
             raise ValueError(
                 f"The place ({np.ravel(x)[missing[0]]:g} m, {np.ravel(y)[missing[0]]:g} m) is not in the ground for "
                 'which the random field was built; use the sampler "circulant", which fills the whole box.'
             )
         return dict(zip(self.names, values, strict=True))
+
+
+class LayerSoil(NamedTuple):
+    """What the soil of a layer makes of Gaussian fields.
+
+    Attributes
+    ----------
+    marginals : mapping
+        Distribution [SI] of each property that is random in it by name, in the order of the table of properties.
+    factor : ndarray of shape (n, n)
+        Lower Cholesky factor of the cross-correlations of their Gaussian fields.
+    field : int
+        Number of the layer if it has a field of its own, 0 if it has a part of that of all.
+    cells : ndarray of shape (ny, nx), optional
+        The cells in which the layer may be read, those where it is at the centre or at a corner; None for all.
+    means : mapping, optional
+        Value [SI] of the properties by name that are random in other layers alone.
+    """
+
+    marginals: Mapping[str, Lognormal]
+    factor: Array
+    field: int = 0
+    cells: NDArray[np.bool_] | None = None
+    means: Mapping[str, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -95,17 +127,22 @@ class StrengthSampler:
         The cells, in row order, for which `gaussian` draws values.
     gaussian : Sampler
         Draws independent standard Gaussian fields.
-    marginals : mapping
-        Distribution [SI] of each random property by name, in the order of the table of properties.
-    factor : ndarray of shape (n, n)
-        Lower Cholesky factor of the cross-correlations of the Gaussian fields.
+    layers : tuple of LayerSoil
+        From the surface down.
+    layer : ndarray of shape (ny, nx), optional
+        Number of the layer in which the centre of each cell lies; None for a single one.
     """
 
     grid: ReferenceGrid
     cells: NDArray[np.bool_]
     gaussian: Sampler
-    marginals: Mapping[str, Lognormal]
-    factor: Array
+    layers: tuple[LayerSoil, ...]
+    layer: NDArray[np.intp] | None = None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the properties that are random in any layer, in the order of the table."""
+        return tuple(row.name for row in PROPERTIES if any(row.name in layer.marginals for layer in self.layers))
 
     def draw(self, seed: int, realization: int) -> Strengths:
         """Draw the properties of one realization, or their means everywhere for `BASELINE`.
@@ -115,29 +152,53 @@ class StrengthSampler:
         SamplerError
             If a value reaches the limit of its property.
         """
-        if realization == BASELINE:
-            return self._strengths([np.asarray(law.mean) for law in self.marginals.values()])
+        fields = {} if realization == BASELINE else self._independent(seed, realization)
+        by_layer = [self._of_layer(number, fields, realization) for number in range(len(self.layers))]
+        if self.layer is None:
+            return Strengths(self.grid, self.names, by_layer[0])
+        random = np.array([[name in layer.marginals for name in self.names] for layer in self.layers])
+        values = np.full_like(by_layer[0], np.nan)
+        for number, own in enumerate(by_layer):
+            is_here = (self.layer == number) & random[number][:, None, None]
+            values[is_here] = own[is_here]
+        return Strengths(self.grid, self.names, values, tuple(by_layer))
+
+    def _independent(self, seed: int, realization: int) -> dict[int, Array]:
+        """Draw the independent Gaussian fields of all properties, by the number of the layer that has its own."""
         # Each property has a Gaussian field of its own, whichever others are random.
-        own = [place for place, row in enumerate(PROPERTIES) if row.name in self.marginals]
-        independent = self.gaussian.draw(generator(seed, Stream.FIELD, realization), own[-1] + 1)[own]
-        mixed = correlated(self.factor, independent)
-        fields = [law(field) for law, field in zip(self.marginals.values(), mixed, strict=True)]
-        for name, field in zip(self.marginals, fields, strict=True):
-            refuse_beyond_limit(name, float(field.max()), realization)
-        return self._strengths(fields)
+        count = 1 + max(place for place, row in enumerate(PROPERTIES) if row.name in self.names)
+        return {
+            field: self.gaussian.draw(
+                generator(seed, Stream.LAYER if field else Stream.FIELD, realization, field), count
+            )
+            for field in sorted({layer.field for layer in self.layers})
+        }
 
-    def _strengths(self, fields: list[Array]) -> Strengths:
-        values = np.full((len(fields), *self.grid.shape), np.nan)
-        for value, field in zip(values, fields, strict=True):
-            value[self.cells] = np.ravel(field)
-        return Strengths(self.grid, tuple(self.marginals), values)
+    def _of_layer(self, number: int, fields: Mapping[int, Array], realization: int) -> Array:
+        """Return the properties in the soil of a layer, (n, ny, nx)."""
+        layer = self.layers[number]
+        independent = fields.get(layer.field)
+        own = [place for place, row in enumerate(PROPERTIES) if row.name in layer.marginals]
+        values = np.full((len(self.names), *self.grid.shape), np.nan)
+        mixed = [] if independent is None else correlated(layer.factor, independent[own])
+        drawn = dict(zip(layer.marginals, mixed, strict=False))
+        for name, value in zip(self.names, values, strict=True):
+            law = layer.marginals.get(name)
+            mean = (layer.means or {})[name] if law is None else law.mean
+            value[self.cells] = np.ravel(np.asarray(mean) if law is None or name not in drawn else law(drawn[name]))
+            if name in drawn:
+                is_read = self.cells if layer.cells is None else self.cells & layer.cells
+                refuse_beyond_limit(name, float(np.max(value[is_read], initial=0.0)), realization, number)
+        return values
 
 
-def refuse_beyond_limit(name: str, largest: float, realization: int) -> None:
-    """Raise a SamplerError if the `largest` value of a property [SI] reaches its limit."""
+def refuse_beyond_limit(name: str, largest: float, realization: int, layer: int = 0) -> None:
+    """Raise a SamplerError if the `largest` value of a property [SI] in a layer reaches its limit."""
     row = BY_NAME[name]
     if largest >= row.limit:
+        keys = (row.mean_key, row.cov_key)
+        mean_key, cov_key = (f"layer.{layer}.{key.partition('.')[2]}" if layer else key for key in keys)
         raise SamplerError(
             f"Realization {realization} has a {row.long_name} of {row.unit.show(largest)}, which must be below "
-            f"{row.unit.show(row.limit)}. A lognormal distribution is unbounded; lower {row.mean_key} or {row.cov_key}."
+            f"{row.unit.show(row.limit)}. A lognormal distribution is unbounded; lower {mean_key} or {cov_key}."
         )

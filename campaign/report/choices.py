@@ -2,8 +2,10 @@
 
 from campaign.fields.properties import BY_NAME
 from campaign.scene import Scene
+from campaign.scene.layer_table import layer_rows, told_by_layer
 from campaign.scene.sections import Numerics, RandomField
 from campaign.scene.softening import known_rate, softening_rate, softening_words
+from campaign.terminal import listing
 
 LOCKING = {
     "none": "none: ground that yields without a change of volume is too strong by 10 to 35 %",
@@ -24,13 +26,18 @@ METHODS = {
 
 def modelling_choices(scene: Scene) -> dict[str, str]:
     """Return the choices that the answer rests on and that no interval contains, by name."""
-    return {
-        "Soil law": scene.soil.law,
+    layers = {
+        f"Layer: {row.name}": f"{row.thickness} thick, {row.unit_weight}; cohesion {row.cohesion}, friction "
+        f"angle {row.friction_angle}, residual: {row.residual}"
+        for row in layer_rows(scene)
+    }
+    return layers | {
+        "Soil law": told_by_layer(scene, lambda layer: layer.soil.law),
         "How it begins": _beginning(scene.numerics),
-        "Softening": _softening(scene),
+        "Softening": told_by_layer(scene, _softening),
         "Against too stiff yielding": LOCKING[scene.numerics.locking],
         "Method": _method(scene.numerics),
-        "Correlation": _correlation(scene.field),
+        "Correlation": _correlation(scene),
         "Cross-correlation": _cross_correlation(scene.field),
     }
 
@@ -50,9 +57,11 @@ def _method(numerics: Numerics) -> str:
     )
 
 
-def _correlation(field: RandomField) -> str:
+def _correlation(scene: Scene) -> str:
+    field, own = scene.field, [layer.name for layer in scene.layer if layer.field == "own"]
     kind = field.length_kind.replace("-", " ")
-    return f"{field.correlation}, {kind} {field.horizontal:g} m along and {field.vertical:g} m across the layers"
+    words = f"{field.correlation}, {kind} {field.horizontal:g} m along and {field.vertical:g} m across the bedding"
+    return f"{words}; a field of its own in {listing(own)}" if own else words
 
 
 def _cross_correlation(field: RandomField) -> str:

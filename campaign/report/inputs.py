@@ -5,11 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.fields.properties import BY_NAME, value_of
+from campaign.fields.properties import BY_NAME
 from campaign.record import FINAL_RUNOUT, Status
 from campaign.results.results import Results
 from campaign.results.sensitivity import Outcome, effects_of, map_of, ranking_of
-from campaign.scene.inputs import BY_KEY, MORE, raised, shown
+from campaign.scene.inputs import MORE, Input, by_key, raised, shown
 from campaign.statistics import sensitivity
 from campaign.statistics.changed_inputs import InputEffects
 from campaign.statistics.intervals import Interval
@@ -100,8 +100,8 @@ def property_rows(results: Results, outcome: Outcome) -> list[PropertyRow]:
 
 
 def _effect_row(results: Results, key: str, effect: Interval, standing: int) -> EffectRow:
-    changed, scene = BY_KEY[key], results.scene
-    value, cov = value_of(scene, key) or 0.0, value_of(scene, changed.cov_key) if changed.cov_key else None
+    changed, scene = by_key(results.scene)[key], results.scene
+    value, cov = changed.value(scene) or 0.0, changed.cov(scene)
     values = f"{shown(raised(scene, changed), changed)} instead of {shown(value, changed)}"
     is_in_proportion = cov and effect.n and not standing  # where slopes stand with more of it, the effect is not
     deviation = f"{_changed(_times(effect, cov / MORE))} for {100 * cov:g} %" if cov and is_in_proportion else ""
@@ -115,9 +115,9 @@ def _stood(results: Results, found: InputEffects) -> dict[str, int]:
     return dict(zip(found.keys, np.count_nonzero(has_lost_all, axis=1).tolist(), strict=True))
 
 
-def _no_longer_slide(standing: Mapping[str, int], slides: int) -> str:
+def _no_longer_slide(standing: Mapping[str, int], slides: int, named: Mapping[str, Input]) -> str:
     """Say with more of which inputs slopes stand."""
-    told = [f"{count} with {TENTH} {BY_KEY[key].name}" for key, count in standing.items() if count]
+    told = [f"{count} with {TENTH} {named[key].name}" for key, count in standing.items() if count]
     return f" Of {counted(slides, 'slide')} no longer slide at all: {listing(told)}." if told else ""
 
 
@@ -136,28 +136,28 @@ def _largest(results: Results) -> str:
     of_all = f"Of {counted(len(known), 'input')}, each raised alone by {100 * MORE:g} %,"
     unhindered = f", {whole} or more without the wall ahead or a failure in the way" if whole < slides else ""
     again = f"{counted(slides, 'slide')} {'was' if slides == 1 else 'were'} computed again for each{unhindered}."
-    standing = _stood(results, found)
+    standing, named = _stood(results, found), by_key(results.scene)
     if not found.clear():
         return (
             f"{of_all} none has an effect on the run-out of a slide that can be told from none: {again}"
-            f"{_no_longer_slide(standing, slides)} A larger campaign.sensitivity_pairs may tell more."
+            f"{_no_longer_slide(standing, slides, named)} A larger campaign.sensitivity_pairs may tell more."
         )
     (key, effect), *others = [*found.clear().items()][:NAMED]
-    then = " and ".join(f"{BY_KEY[other].name}, {_changed(each)}" for other, each in others)
+    then = " and ".join(f"{named[other].name}, {_changed(each)}" for other, each in others)
     next_come = f"; next {'comes' if len(others) == 1 else 'come'} {then}" if others else ""
     unclear = [each for each in known if each not in found.clear() and not standing[each]]
     most = "most" if not unclear else "most of those whose effect can be told from none"
     return (
-        f"{of_all} {BY_KEY[key].name} changes the run-out of a slide {most}, by {_changed(effect)}{next_come}."
-        f"{_no_longer_slide(standing, slides)}{_unclear(unclear)} {again[0].upper()}{again[1:]}"
+        f"{of_all} {named[key].name} changes the run-out of a slide {most}, by {_changed(effect)}{next_come}."
+        f"{_no_longer_slide(standing, slides, named)}{_unclear(unclear, named)} {again[0].upper()}{again[1:]}"
     )
 
 
-def _unclear(keys: list[str]) -> str:
+def _unclear(keys: list[str], named: Mapping[str, Input]) -> str:
     """Name the inputs whose effect cannot be told from none, which may be large for all that."""
     if not keys:
         return ""
-    them = listing([BY_KEY[key].name for key in keys])
+    them = listing([named[key].name for key in keys])
     return f" {them[0].upper()}{them[1:]} {'has an effect' if len(keys) == 1 else 'have effects'} lost in the scatter."
 
 

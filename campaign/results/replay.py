@@ -52,6 +52,8 @@ def replay(directory: Path, realization: int) -> Path:
     path = _new_file(directory, realization)
     released = ground.released(realization)
     fixed = {row.identifier: getattr(released, row.particle_array) for row in ground.random_properties}
+    if ground.scene.layer:
+        fixed["layer"] = released.material
     with ParticleFile(path, fixed) as file:
         record = ground.simulate(realization, observe=lambda march: file.append(march.time, *state(march)))
     say(comparison(record, _recorded(directory, realization)))

@@ -16,12 +16,12 @@ from campaign.accuracy.pursuit import Model, Pursuit, Wanted, pursue
 from campaign.accuracy.settings import HALF, OWN, Models, models_of
 from campaign.accuracy.wording import plan, setting
 from campaign.errors import RefusalError
-from campaign.fields.properties import random_properties
 from campaign.record import LOWER_BOUND, SLID
 from campaign.running.level import Level
 from campaign.running.side_run import Means, SideRun, Stopped, make
 from campaign.scene import Scene
 from campaign.scene.constraints import tolerance
+from campaign.scene.layers import random_properties
 from campaign.statistics.repetition import UNASKED, without_rule
 from campaign.statistics.ridge import Matrix
 from campaign.statistics.tally import Tally

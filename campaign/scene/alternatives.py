@@ -2,9 +2,13 @@
 
 RATE, SLIP = ("soil", "softening", "rate"), ("soil", "softening", "slip_to_residual")
 
-ALTERNATIVES = {RATE: SLIP, SLIP: RATE}
+TOP, DEPTH = ("layer", "top"), ("layer", "depth")
+
+ALTERNATIVES = {RATE: SLIP, SLIP: RATE, TOP: DEPTH, DEPTH: TOP}
 
 
 def replaced_by(path: tuple[str, ...]) -> str:
     """Return the name, in the same section, of the key that an override of `path` replaces; "" if none."""
-    return ALTERNATIVES[path][-1] if path in ALTERNATIVES else ""
+    # A layer, path[1] is its number, has the keys of the soil and some of its own.
+    keys = [(section, *path[2:]) for section in ("layer", "soil")] if path[0] == "layer" else [path]
+    return next((ALTERNATIVES[key][-1] for key in keys if key in ALTERNATIVES), "")

@@ -8,14 +8,16 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from campaign.scene.document import Document, Location, location_of
-from campaign.scene.rules import cross_correlation, field, geometry, numerics, receptor, slide, soil
+from campaign.scene.layer_soil import soils_of, written_out
+from campaign.scene.rules import cross_correlation, field, geometry, layer, numerics, receptor, slide, soil
 from campaign.scene.scene import flatten
+from campaign.scene.sections import FrictionAngle, SceneFile
 from campaign.scene.wording import explain, section_fields, wrong_value
 
 Key = tuple[str | int, ...]
 
 # A cell too large breaks rules of the ground as well, and is to be read first.
-SECTIONS = (numerics, geometry, slide, soil, field, cross_correlation, receptor)
+SECTIONS = (numerics, geometry, slide, soil, layer, field, cross_correlation, receptor)
 
 
 def mistakes(document: Document, model: type[BaseModel], example: Document) -> list[str]:
@@ -42,6 +44,7 @@ def mistakes(document: Document, model: type[BaseModel], example: Document) -> l
         *explain(details, document, model, example),
         *_geometry_choice(document),
         *_repeated_names(document),
+        *_half_given_friction(document),
         *(wrong_value(location_of(key), complaint, document) for key, complaint in broken),
     ]
 
@@ -66,15 +69,40 @@ def _geometry_choice(document: Document) -> list[str]:
 
 
 def _repeated_names(document: Document) -> list[str]:
-    receptors = document.tables.get("receptor")
-    if not isinstance(receptors, list):
-        return []
-    names = [table.get("name") if isinstance(table, dict) else None for table in receptors]
+    return [message for array in ("receptor", "layer") for message in _repeated_names_in(array, document)]
+
+
+def _repeated_names_in(array: str, document: Document) -> list[str]:
+    names = [table.get("name") if isinstance(table, dict) else None for table in _tables_of(array, document)]
     return [
-        wrong_value(("receptor", number, "name"), f"receptor {names.index(name) + 1} has that name, too", document)
+        wrong_value((array, number, "name"), f"{array} {names.index(name) + 1} has that name, too", document)
         for number, name in enumerate(names)
         if isinstance(name, str) and name in names[:number]
     ]
+
+
+def _half_given_friction(document: Document) -> list[str]:
+    """Refuse a friction angle that a layer gives in part where the soil has none that completes it."""
+    soil = document.tables.get("soil")
+    if not isinstance(soil, dict) or "friction_angle" in soil:
+        return []
+    friction_angles = {
+        number: table["friction_angle"]
+        for number, table in enumerate(_tables_of("layer", document))
+        if isinstance(table, dict) and isinstance(table.get("friction_angle"), dict)
+    }
+    return [
+        f"{document.place(('layer', number, 'friction_angle'))} has no {name}; add it, since [soil] has no friction "
+        "angle from which it could be taken."
+        for number, given in friction_angles.items()
+        for name, field in FrictionAngle.model_fields.items()
+        if field.is_required() and name not in given
+    ]
+
+
+def _tables_of(array: str, document: Document) -> list[Any]:
+    tables = document.tables.get(array)
+    return tables if isinstance(tables, list) else []
 
 
 def _sound_values(document: Document, model: type[BaseModel], faulty: set[Key], example: Document) -> dict[str, Any]:
@@ -85,8 +113,13 @@ def _sound_values(document: Document, model: type[BaseModel], faulty: set[Key], 
     tables = deepcopy(document.tables)
     for key in _outermost(faulty):
         _replace(key, tables, example.tables, section_fields(model, key[:-1]))
-    values = flatten(model.model_validate(tables).model_dump(mode="json"))
-    dotted = [".".join(map(str, key)) for key in faulty]
+    whole = model.model_validate(tables)
+    written, dotted = whole.model_dump(mode="json"), [".".join(map(str, key)) for key in faulty]
+    if isinstance(whole, SceneFile):
+        written |= {"layer": written_out(whole), "laws": [soil.law for soil in soils_of(whole)]}
+        of_soil = [key.removeprefix("soil.") for key in dotted if key.startswith("soil.")]
+        dotted += [f"layer.{number}.{key}" for number in range(len(whole.layer)) for key in of_soil]
+    values = flatten(written)
     return {name: value for name, value in values.items() if not any(_within(name, key) for key in dotted)}
 
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any, get_args, get_origin
 
 from pydantic import BeforeValidator
 
-from campaign.scene.document import location_of, shown
+from campaign.scene.document import location_of, numbered_from_one, shown
 from campaign.scene.sections import SceneFile
 from campaign.scene.units import Kind, shown_in_unit
 from campaign.scene.wording import section_fields
@@ -17,7 +17,7 @@ ABSENT = "absent"
 def differences(here: Mapping[str, Any], there: Mapping[str, Any]) -> list[str]:
     """Say, key by key, how two identities differ; `there` is the one in the results directory."""
     return [
-        f"{key} is {one} here but {other} in the results directory"
+        f"{numbered_from_one(key)} is {one} here but {other} in the results directory"
         for key, (one, other) in differing_values(here, there).items()
     ]
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 from campaign.scene import Scene
-from campaign.scene.document import document_of
+from campaign.scene.document import document_of, location_of
 from campaign.scene.wording import wrong_value
 
 
@@ -26,4 +26,4 @@ def found(complaints: Iterable[Complaint | None]) -> list[Complaint]:
 def sentences(complaints: Iterable[Complaint], scene: Scene) -> list[str]:
     """Write complaints as sentences with the place and the value as the user wrote them."""
     document = document_of(scene.text, scene.overrides, f"{scene.name}.toml")
-    return [wrong_value(tuple(key.split(".")), text, document) for key, text in complaints]
+    return [wrong_value(location_of(key), text, document) for key, text in complaints]

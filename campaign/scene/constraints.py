@@ -96,10 +96,32 @@ def _tolerable(written: Any) -> Any:
     return written
 
 
-def _listed(written: Any) -> Any:
-    if not isinstance(written, list):
-        raise ValueError("it must be written under a line [[receptor]], with two brackets, once for each place")
-    return written
+def listed(header: str, each: str) -> BeforeValidator:
+    """Refuse what is no array of tables, each of which has a header with two brackets."""
+
+    def check(written: Any) -> Any:
+        if not isinstance(written, list):
+            raise ValueError(f"it must be written under a line [[{header}]], with two brackets, once for each {each}")
+        return written
+
+    return BeforeValidator(check)
+
+
+def _top(written: Any, kind: Kind) -> tuple[tuple[float, float], ...]:
+    """Read the top of a layer, points (x, elevation) [m] from left to right; a level one is a single point at x = 0."""
+    if isinstance(written, list):
+        if len(written) < 2 or not all(isinstance(point, list) and len(point) == 2 for point in written):
+            raise ValueError(
+                'it must be an elevation, for instance "5 m", or two points or more, each of x and elevation, for '
+                'instance [["0 m", "6 m"], ["80 m", "4 m"]]'
+            )
+        x_and_y = tuple((si_value(x, kind), si_value(y, kind)) for x, y in written)
+        points = _goes_forward(x_and_y)
+    else:
+        points = ((0.0, si_value(written, kind)),)
+    if min(y for _, y in points) < 0.0 or max(y for _, y in points) == 0.0:
+        raise ValueError("it must lie above the base, which is at elevation 0")
+    return points
 
 
 POSITIVE = must("be greater than zero", lambda value: value > 0.0)
@@ -150,4 +172,4 @@ Profile = Annotated[
 Name = Annotated[str, must("be a line of text", lambda text: bool(text.strip()) and text.isprintable())]
 Stretch = Annotated[tuple[float, float], BeforeValidator(partial(_stretch, kind=LENGTH))]
 ToleranceText = Annotated[str, BeforeValidator(_tolerable)]
-LISTED = BeforeValidator(_listed)
+Top = Annotated[tuple[tuple[float, float], ...], BeforeValidator(partial(_top, kind=LENGTH))]

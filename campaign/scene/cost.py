@@ -5,6 +5,7 @@ from math import ceil
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.inputs import inputs_of
+from campaign.scene.sections import Soil
 from solver.constants import STANDARD_GRAVITY
 from solver.elastic import bulk_modulus, p_wave_speed, shear_modulus
 from solver.timestep import stable_step
@@ -78,11 +79,14 @@ def output_count(scene: Scene) -> int:
 
 
 def time_step(scene: Scene) -> float:
-    """Return the longest stable time step of ground at rest [s]."""
-    constants = scene.soil.young_modulus, scene.soil.poisson_ratio
-    density = scene.soil.unit_weight / STANDARD_GRAVITY
-    wave_speed = p_wave_speed(bulk_modulus(*constants), shear_modulus(*constants), density)
-    return stable_step(scene.numerics.courant, scene.numerics.cell, wave_speed, 0.0)
+    """Return the longest stable time step of ground at rest [s]; waves are fastest in the stiffest layer."""
+    fastest = max(_wave_speed(soil) for soil in scene.soils)
+    return stable_step(scene.numerics.courant, scene.numerics.cell, fastest, 0.0)
+
+
+def _wave_speed(soil: Soil) -> float:
+    constants = soil.young_modulus, soil.poisson_ratio
+    return p_wave_speed(bulk_modulus(*constants), shear_modulus(*constants), soil.unit_weight / STANDARD_GRAVITY)
 
 
 def rank_bytes(scene: Scene) -> float:

@@ -22,6 +22,9 @@ ARRAY_HEADER = re.compile(r"""\s*\[\[\s*([\w.\-\s]+?)\s*\]\]\s*(?:#.*)?""")
 ASSIGNMENT = re.compile(r"""\s*([\w.\-"']+(?:\s*\.\s*[\w\-"']+)*)\s*=""")
 BARE_QUANTITY = re.compile(r"=\s*[+-]?[\d.]+(?:[eE][+-]?\d+)?\s*[A-Za-z°%]")
 
+ARRAYS = {"receptor": """receptor=[{name="road", x="42 m"}]""", "layer": """layer=[{name="clay", top="5 m"}]"""}
+"""Arrays of tables that a scene may have, with an override that sets the whole."""
+
 DEEPEST = 8
 TOO_DEEP = "tables and lists are nested too deeply; a scene needs four levels"
 
@@ -50,9 +53,10 @@ class Document:
         point = _point(location)
         for override in reversed(self.overrides):
             path = override_key(override)
-            created = path[: len(keys)] == keys and keys not in self.lines
-            if created or path == keys[: len(path)]:
-                return f"--set {'.'.join(path)}{point}"
+            target = _target(path)
+            created = target[: len(location)] == location and location not in self.lines
+            if created or target == location[: len(target)]:
+                return f"--set {'.'.join(path)}{'' if len(path) > len(keys) else point}"
         known = (self.lines[location[:n]] for n in range(len(location), 0, -1) if location[:n] in self.lines)
         line = next(known, None)
         return f"{'.'.join(keys)} ({self.file}{f', line {line}' if line else ''}{point})"
@@ -121,6 +125,18 @@ def location_of(dotted: str) -> Location:
 def override_key(override: str) -> tuple[str, ...]:
     """Return the key of an override KEY=VALUE as its parts."""
     return _split(override.partition("=")[0])
+
+
+def numbered_from_one(dotted: str) -> str:
+    """Return a dotted key as `--set` takes it, "receptor.1.x" for what is kept as "receptor.0.x"."""
+    return ".".join(str(part + 1) if isinstance(part, int) else part for part in location_of(dotted))
+
+
+def _target(path: tuple[str, ...]) -> Location:
+    """Return the location that an override changes."""
+    if path[0] not in ARRAYS or len(path) == 1 or not path[1].isdecimal():
+        return path
+    return (path[0], int(path[1]) - 1, *path[2:])
 
 
 def in_force(overrides: Iterable[str]) -> list[str]:
@@ -207,16 +223,36 @@ def _apply(override: str, tables: dict[str, Any]) -> str | None:
         )
     if len(path) > DEEPEST:
         return f"--set {_short('.'.join(path))}: {TOO_DEEP}."
-    for depth, section in enumerate(sections, start=1):
-        tables = tables.setdefault(section, {})
-        if isinstance(tables, list):
-            whole = """, for instance --set 'receptor=[{name="road", x="42 m"}]'""" if section == "receptor" else ""
-            return f"--set {'.'.join(path)}: {'.'.join(path[:depth])} is a list; set all of it{whole}."
-        if not isinstance(tables, dict):
-            return f"--set {'.'.join(path)}: {'.'.join(path[:depth])} is a value, not a section; set it itself."
-    tables.pop(replaced_by(path), None)
-    tables[last] = _override_value(override.partition("=")[2].strip())
+    inner: Any = tables
+    for depth, part in enumerate(sections, start=1):
+        inner = _inside(inner, part)
+        if not isinstance(inner, dict | list):
+            return f"--set {'.'.join(path)}: {_why_not(path, depth, inner, tables)}"
+    if not isinstance(inner, dict):
+        return f"--set {'.'.join(path)}: {_why_not(path, len(path), inner, tables)}"
+    inner.pop(replaced_by(path), None)
+    inner[last] = _override_value(override.partition("=")[2].strip())
     return None
+
+
+def _inside(tables: Any, part: str) -> Any:
+    """Return the section of that name, which is made if it is not there, or the table of an array of that number."""
+    if isinstance(tables, dict):
+        return tables.setdefault(part, [] if part in ARRAYS else {})
+    return tables[int(part) - 1] if part.isdecimal() and 1 <= int(part) <= len(tables) else None
+
+
+def _why_not(path: tuple[str, ...], depth: int, inner: Any, tables: dict[str, Any]) -> str:
+    """Say why no key can be set in what is found at the first parts of a path."""
+    before, array = ".".join(path[: depth - 1]), path[0]
+    if depth == 2 and array in ARRAYS and isinstance(tables[array], list):
+        number = len(tables[array])
+        there = f"{array} is a list of {number}" if number else f"the scene has no [[{array}]]"
+        one = f"one key of one of them, as {array}.1.name, or " if number else ""
+        return f"{there}; set {one}all of it, for instance --set '{ARRAYS[array]}'."
+    if inner is None or isinstance(inner, list):
+        return f"{before} is a list; set all of it."
+    return f"{'.'.join(path[:depth])} is a value, not a section; set it itself."
 
 
 def _override_value(text: str) -> Any:

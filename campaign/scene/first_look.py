@@ -1,5 +1,6 @@
 """A first look at a slope before anything is run: where its toe is, how stable it is, and how fast it could slide."""
 
+from collections.abc import Sequence
 from math import erf, sqrt, tan
 from typing import NamedTuple
 
@@ -7,7 +8,8 @@ import numpy as np
 
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
-from campaign.scene.limit_equilibrium import SlipCircle, critical_circle, factor_on
+from campaign.scene.layers import interfaces_of, layer_at, layer_scenes
+from campaign.scene.limit_equilibrium import SlipCircle, Strata, critical_circle, factor_on
 from campaign.scene.sections import FrictionAngle
 from campaign.scene.softening import share_left
 from solver.constants import STANDARD_GRAVITY
@@ -23,6 +25,9 @@ DEPTH = 0.3
 
 LEAST_FRICTION = 0.05
 """Of a slide that comes to rest at all."""
+
+BELOW_TOE = 1e-3
+"""Depth in heights at which the layer at the toe is looked up."""
 
 NO_FRICTION = FrictionAngle.model_construct(mean=0.0, cov=0.0, residual=0.0)
 """Of soil with undrained strength alone."""
@@ -74,38 +79,77 @@ class FirstLook(NamedTuple):
 def look_at(scene: Scene) -> FirstLook:
     """Return a first look at the slope of a scene."""
     surface = surface_of(scene.geometry)
-    peak, residual = critical_circles(scene, surface)
+    peak, residual = critical_circles(scene)
     spread = 0.0 if peak is None else _spread(scene, surface, peak)
     return FirstLook(surface, surface.height, peak, residual, spread, braking_friction(scene, surface, surface.height))
 
 
-def critical_circles(scene: Scene, surface: Surface) -> tuple[SlipCircle | None, SlipCircle | None]:
-    """Return the critical circles of a surface for the mean peak strength and for the residual one of a scene."""
-    soil, friction_angle = scene.soil, scene.soil.friction_angle or NO_FRICTION
-    peak = _circle(surface, soil.cohesion.mean, friction_angle.mean, soil.unit_weight)
-    residual = None
-    if soil.softening.law != "none":
-        residual = _circle(surface, soil.cohesion.residual, friction_angle.residual, soil.unit_weight)
+def critical_circles(scene: Scene, added: float = 0.0) -> tuple[SlipCircle | None, SlipCircle | None]:
+    """Return the critical circles of a scene for the mean peak strength and for the residual one.
+
+    Elevations are above the base, which is as many m deeper as are `added` to the lowest layer.
+    """
+    surface, layers = raised(surface_of(scene.geometry), added), layer_scenes(scene)
+    peak, residual = _circle(surface, strata_of(scene, [_peak(layer) for layer in layers], added)), None
+    if any(_softens(layer) for layer in layers):
+        strengths = [_residual(layer) if _softens(layer) else _peak(layer) for layer in layers]
+        residual = _circle(surface, strata_of(scene, strengths, added))
     return peak, residual
+
+
+def raised(line: Surface, by: float) -> Surface:
+    """Return a line that many m higher."""
+    return line._replace(y=line.y + by) if by else line
+
+
+class Strength(NamedTuple):
+    """Cohesion in Pa and friction angle in rad."""
+
+    cohesion: float
+    friction_angle: float
+
+
+def _peak(scene: Scene) -> Strength:
+    return Strength(scene.soil.cohesion.mean, (scene.soil.friction_angle or NO_FRICTION).mean)
+
+
+def _residual(scene: Scene) -> Strength:
+    return Strength(scene.soil.cohesion.residual, (scene.soil.friction_angle or NO_FRICTION).residual)
+
+
+def _softens(scene: Scene) -> bool:
+    return scene.soil.softening.law != "none"
+
+
+def strata_of(scene: Scene, strengths: Sequence[Strength], added: float = 0.0) -> Strata:
+    """Return the layers of a scene, each with a strength, above so many m of `added` ground."""
+    cohesions, friction_angles = zip(*strengths, strict=True)
+    unit_weights = tuple(soil.unit_weight for soil in scene.soils)
+    interfaces = tuple(raised(top, added) for top in interfaces_of(scene))
+    return Strata(cohesions, friction_angles, unit_weights, interfaces)
 
 
 def braking_friction(scene: Scene, surface: Surface, height: float) -> float:
     """Return what brakes a slide ahead of the toe, over its weight: tan(phi) + c / (gamma d) - tan(beta), or 0.05.
 
-    Strength c, phi is what softening has left after a slip of half the height; d is 0.3 heights, and beta the
-    inclination of the ground over two heights ahead of the toe. Gentle fans of weak soil brake little.
+    Strength c, phi is what softening has left after a slip of half the height, of the layer at the toe; d is 0.3
+    heights, and beta the inclination of the ground over two heights ahead of the toe. Gentle fans of weak soil brake
+    little.
     """
-    soil, toe_x, toe_y = scene.soil, *surface.toe
-    left = share_left(soil.softening, 0.5 * height, scene.numerics.locking == "none")
-    friction_angle = soil.friction_angle or NO_FRICTION
-    cohesion, angle = (each.residual + (each.mean - each.residual) * left for each in (soil.cohesion, friction_angle))
+    toe_x, toe_y = surface.toe
+    at_toe = int(layer_at(interfaces_of(scene), np.array([toe_x]), np.array([toe_y - BELOW_TOE * height]))[0])
+    layer = layer_scenes(scene)[at_toe]
+    left = share_left(layer.soil.softening, 0.5 * height, scene.numerics.locking == "none")
+    cohesion, angle = (
+        residual + (peak - residual) * left for peak, residual in zip(_peak(layer), _residual(layer), strict=True)
+    )
     end = min(toe_x + 2.0 * height, surface.width)
     descent = (toe_y - float(surface.height_at(np.array([end]))[0])) / (end - toe_x)
-    return max(LEAST_FRICTION, tan(angle) + cohesion / (soil.unit_weight * DEPTH * height) - descent)
+    return max(LEAST_FRICTION, tan(angle) + cohesion / (layer.soil.unit_weight * DEPTH * height) - descent)
 
 
-def _circle(surface: Surface, cohesion: float, friction_angle: float, unit_weight: float) -> SlipCircle | None:
-    found = critical_circle(surface, cohesion, friction_angle, unit_weight)
+def _circle(surface: Surface, strata: Strata) -> SlipCircle | None:
+    found = critical_circle(surface, strata)
     return found if np.isfinite(found.factor) else None
 
 
@@ -113,16 +157,31 @@ def _spread(scene: Scene, surface: Surface, circle: SlipCircle) -> float:
     """Return the standard deviation of the factor of safety on a circle, to first order in the random strengths.
 
     With the derivatives a and b along one standard deviation of cohesion and of friction angle it is
-    sqrt(a^2 + b^2 + 2 rho a b).
+    sqrt(a^2 + b^2 + 2 rho a b), in all layers of one field at once. Layers with fields of their own vary independently.
     """
-    soil = scene.soil
-    cohesion, friction_angle = soil.cohesion, soil.friction_angle or NO_FRICTION
+    own = {number for number, layer in enumerate(scene.layer, start=1) if layer.field == "own"}
+    of_all = {*range(len(scene.soils))} - own
+    return sqrt(sum(_variance(scene, surface, circle, varied) for varied in (of_all, *({number} for number in own))))
+
+
+def _variance(scene: Scene, surface: Surface, circle: SlipCircle, varied: set[int]) -> float:
+    """Return what some layers that vary together add to the variance of the factor of safety."""
+    layers = layer_scenes(scene)
+    soils = [layer.soil for layer in layers]
 
     def factor(cohesions: float, friction_angles: float) -> float:
-        strength = cohesion.mean + cohesions * step_c, friction_angle.mean + friction_angles * step_phi
-        return factor_on(circle, surface, *strength, soil.unit_weight)
+        """Return it for strengths that are so many hundredths of a standard deviation above their means."""
+        strengths = [
+            Strength(
+                peak.cohesion * (1.0 + 0.01 * cohesions * soil.cohesion.cov),
+                peak.friction_angle * (1.0 + 0.01 * friction_angles * (soil.friction_angle or NO_FRICTION).cov),
+            )
+            if number in varied
+            else peak
+            for number, (soil, peak) in enumerate(zip(soils, map(_peak, layers), strict=True))
+        ]
+        return factor_on(circle, surface, strata_of(scene, strengths))
 
-    step_c, step_phi = 0.01 * cohesion.mean, 0.01 * friction_angle.mean
-    a = 50.0 * cohesion.cov * (factor(1.0, 0.0) - factor(-1.0, 0.0))
-    b = 50.0 * friction_angle.cov * (factor(0.0, 1.0) - factor(0.0, -1.0))
-    return sqrt(a**2 + b**2 + 2.0 * scene.field.cross_correlation * a * b)
+    a = 50.0 * (factor(1.0, 0.0) - factor(-1.0, 0.0))
+    b = 50.0 * (factor(0.0, 1.0) - factor(0.0, -1.0))
+    return a**2 + b**2 + 2.0 * scene.field.cross_correlation * a * b

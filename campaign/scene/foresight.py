@@ -1,5 +1,6 @@
 """What can be run but hardly be meant, or will not give the answer that is asked for: warnings before a campaign."""
 
+from collections.abc import Iterator
 from math import ceil
 
 from campaign.scene import Scene
@@ -7,9 +8,11 @@ from campaign.scene.complaints import Complaint, found
 from campaign.scene.cost import core_seconds, output_count, particle_count, realization_seconds, step_count, time_step
 from campaign.scene.first_look import LONGEST_SLIDE, TYPICAL_SLIDE, FirstLook, critical_circles
 from campaign.scene.front import front_of_particles, front_of_the_slide
+from campaign.scene.layer_soil import gives
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
 from campaign.scene.more_ground import behind_crest, key_of
+from campaign.scene.odd_layers import odd_layers
 from campaign.scene.odd_sections import odd_sections
 from campaign.scene.outlook import may_slide
 from campaign.scene.sections import Campaign
@@ -61,6 +64,7 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
         (
             far_from_failure(look),
             *odd_sections(scene, look.surface),
+            *odd_layers(scene, look),
             coarse_cells(scene, look),
             toe,
             *(front(scene, look) for front in fronts),
@@ -70,6 +74,7 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
             few_pairs(scene),
             large_campaign(scene),
             *(unusual_soil(scene, *row) for row in SOILS),
+            *_unusual_layers(scene),
         )
     )
 
@@ -152,8 +157,8 @@ def thin_foundation(scene: Scene, look: FirstLook) -> Complaint | None:
     band = max(scene.numerics.cell, scene.soil.softening.internal_length or 0.0)
     if not (driven := _driven(look)) or toe_y < scene.numerics.cell:  # else it is a heap on a floor
         return None
-    deeper = look.surface._replace(y=look.surface.y + look.height)
-    lowest = min(circle.lowest - look.height for circle in critical_circles(scene, deeper) if circle is not None)
+    deeper = critical_circles(scene, added=look.height)
+    lowest = min(circle.lowest - look.height for circle in deeper if circle is not None)
     if lowest < min(scene.numerics.cell, toe_y - scene.numerics.cell):
         down = f"comes down to {lowest:.2g} m above the fixed base"
         if lowest < 0.0:
@@ -241,6 +246,13 @@ def unusual_soil(scene: Scene, key: str, least: float, most: float, usual: str) 
     if value is None or least <= value <= most:
         return None
     return Complaint(key, f"soils have {usual}; check the number and the unit")
+
+
+def _unusual_layers(scene: Scene) -> Iterator[Complaint | None]:
+    for number, layer in enumerate(scene.layer):
+        for key, least, most, usual in SOILS:
+            if gives(layer, key):
+                yield unusual_soil(scene, f"layer.{number}.{key.partition('.')[2]}", least, most, usual)
 
 
 def _driven(look: FirstLook) -> list[SlipCircle]:

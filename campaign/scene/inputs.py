@@ -4,6 +4,8 @@ from typing import NamedTuple
 
 from campaign.fields.properties import PROPERTIES, value_of
 from campaign.scene.comparison import kind_of
+from campaign.scene.layer_soil import gives
+from campaign.scene.layers import layer_names, layer_scenes
 from campaign.scene.loading import kept_scene
 from campaign.scene.scene import Scene
 from campaign.scene.units import shown_in_unit
@@ -27,11 +29,32 @@ class Input(NamedTuple):
         For people.
     cov_key : str
         Key of the coefficient of variation that the scene gives it, "" without one.
+    layer : int
+        Number of the layer whose own it is, 0 for [soil] and for what all have in common. Keys count layers as `--set`
+        does: "layer.1" is the first below [soil].
     """
 
     key: str
     name: str
     cov_key: str = ""
+    layer: int = 0
+
+    @property
+    def soil_key(self) -> str:
+        """Its key where the soil of the layer is that of the whole scene."""
+        return _of_soil(self.key)
+
+    def value(self, scene: Scene) -> float | None:
+        """Return its value in a scene, in SI; None if the scene does not have it."""
+        return value_of(layer_scenes(scene)[self.layer], self.soil_key)
+
+    def cov(self, scene: Scene) -> float | None:
+        """Return its coefficient of variation in a scene; None if it is the same everywhere."""
+        return value_of(layer_scenes(scene)[self.layer], _of_soil(self.cov_key)) if self.cov_key else None
+
+
+def _of_soil(key: str) -> str:
+    return f"soil.{key.split('.', 2)[2]}" if key.startswith("layer.") else key
 
 
 INPUTS = (
@@ -49,13 +72,41 @@ BY_KEY = {row.key: row for row in INPUTS}
 
 
 def inputs_of(scene: Scene) -> tuple[Input, ...]:
-    """Return the inputs that a scene has and that count in it.
+    """Return the inputs that a scene has and that count in it: those of [soil], and what layers have of their own.
 
-    Where the slip to residual strength is given, the internal length moves the rate and not what a slip weakens.
+    With more of an input of [soil] layers that leave it out have more of it, too. Where the slip to residual strength
+    is given, the internal length moves the rate and not what a slip weakens.
     """
+    scenes, names = layer_scenes(scene), layer_names(scene)
+    found = []
+    for row in INPUTS:
+        taking = [each for each in range(len(names)) if not each or not gives(scene.layer[each - 1], row.key)]
+        if counting := [names[each] for each in taking if _counts(scenes[each], row)]:
+            found.append(row if len(counting) == len(names) else _named(row, counting))
+    for number, layer in enumerate(scene.layer, start=1):
+        own = (row for row in INPUTS if gives(layer, row.key) and _counts(scenes[number], row))
+        found += [_of_layer(_named(row, [layer.name]), number) for row in own]
+    return tuple(found)
+
+
+def _named(row: Input, layers: list[str]) -> Input:
+    return row._replace(name=f"{row.name} ({', '.join(layers)})")
+
+
+def _of_layer(row: Input, number: int) -> Input:
+    key, cov_key = (each and f"layer.{number}.{each.partition('.')[2]}" for each in (row.key, row.cov_key))
+    return row._replace(key=key, cov_key=cov_key, layer=number)
+
+
+def _counts(scene: Scene, row: Input) -> bool:
     softening = scene.soil.softening
     unused = SOFTENING if softening.law == "none" else INTERNAL_LENGTH if softening.slip_to_residual else "-"
-    return tuple(row for row in INPUTS if value_of(scene, row.key) and not row.key.startswith(unused))
+    return bool(value_of(scene, row.key)) and not row.key.startswith(unused)
+
+
+def by_key(scene: Scene) -> dict[str, Input]:
+    """Return the inputs that a scene may have, by key."""
+    return BY_KEY | {row.key: row for row in inputs_of(scene)}
 
 
 def with_more(scene: Scene, changed: Input) -> Scene:
@@ -66,7 +117,7 @@ def with_more(scene: Scene, changed: Input) -> Scene:
     RefusalError
         If that is no valid scene, for instance with a residual strength above the peak.
     """
-    kind, value = kind_of(changed.key), raised(scene, changed)
+    kind, value = kind_of(changed.soil_key), raised(scene, changed)
     text = repr(value) if kind is None else f"{value!r} {kind.si_unit}"
     other = kept_scene(scene.text, [*scene.overrides, f"{changed.key}={text}"])
     return other.model_copy(update={"campaign": scene.campaign, "name": scene.name})
@@ -74,10 +125,10 @@ def with_more(scene: Scene, changed: Input) -> Scene:
 
 def raised(scene: Scene, changed: Input) -> float:
     """Return the raised value of an input in SI."""
-    return (1 + MORE) * (value_of(scene, changed.key) or 0.0)
+    return (1 + MORE) * (changed.value(scene) or 0.0)
 
 
 def shown(value: float, changed: Input) -> str:
     """Write a value of an input, given in SI, for people."""
-    kind = kind_of(changed.key)
+    kind = kind_of(changed.soil_key)
     return f"{value:.3g}" if kind is None else shown_in_unit(value, kind)

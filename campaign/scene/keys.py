@@ -8,12 +8,14 @@ from pydantic.fields import FieldInfo
 
 from campaign.fields.correlation import KERNELS
 from campaign.scene.comparison import kind_of
-from campaign.scene.sections import SceneFile
+from campaign.scene.sections import SceneFile, Soil
 from campaign.scene.units import shown_in_unit
 
 REQUIRED = "required"
 
 DEPENDS = {
+    "layer.top": "depth",
+    "layer.depth": "top",
     "slide.front_area": "height^2 / 100",
     "geometry.toe": "the foot of the slope",
     "field.resolution": "the shorter distance / 8",
@@ -25,6 +27,7 @@ DEPENDS = {
 TAKES = {
     "geometry.surface": "points of x and elevation",
     "receptor.x": "a place, or both ends of a range",
+    "layer.top": "an elevation, or points of x and elevation",
     "field.correlation": ", ".join(f'"{name}"' for name in KERNELS),
     "campaign.accuracy": "a share or a length",
     "soil.softening.rate": "a number",
@@ -48,6 +51,8 @@ def keys(model: type[BaseModel] = SceneFile, prefix: str = "") -> Iterator[Key]:
     """Yield the keys of a section, and of those below it, in their order."""
     for name, field in model.model_fields.items():
         if prefix + name == "field.pairs":  # a key for each pair of properties
+            continue
+        if prefix == "layer." and name in Soil.model_fields:  # the keys of [soil] again, none of which is required
             continue
         if section := _section(field.annotation):
             yield from keys(section, f"{prefix}{name}.")

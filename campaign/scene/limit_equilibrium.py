@@ -1,12 +1,13 @@
-"""The factor of safety of a homogeneous slope by Bishop's simplified method, as a first look before anything is run.
+"""The factor of safety of a slope by Bishop's simplified method, as a first look before anything is run.
 
 A circular slip surface is cut into vertical slices of width ``b`` and weight ``W``, whose bases dip by ``alpha``
 towards the toe. Moments about the centre, with no shear between slices, give (Bishop 1955, Geotechnique 5:7)
 
     F = sum [(c b + W tan(phi)) / (cos(alpha) + sin(alpha) tan(phi) / F)] / sum W sin(alpha)
 
-The critical circle is the one with the least ``F``. Circles end on the ground surface, stay above the fixed base, and
-fall by a good part of the height of the slope, or the weakest one would be that of a bump on the crest.
+with the mean of ``c`` and ``tan(phi)`` over the base of a slice, which interfaces of layers may cut. The critical
+circle is the one with the least ``F``. Circles end on the ground surface, stay above the fixed base, and fall by a good
+part of the height of the slope, or the weakest one would be that of a bump on the crest.
 """
 
 from typing import NamedTuple
@@ -14,11 +15,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from campaign.scene.layers import layer_at, thickness_above
 from solver.surface import Surface
 
 Array = NDArray[np.float64]
 
 SLICES = 30
+BASE_PLACES = 6  # of each slice, at which the layer is looked up
 SAGITTAS = (0.02, 0.5)  # depths of arcs under their chords, over the length of these
 COARSE = (28, 28, 10)  # places on the surface where circles begin, where they end, and circles through both
 FINE = 11  # the same three, in the neighbourhood of the best
@@ -67,15 +70,23 @@ NO_CIRCLE = SlipCircle(np.inf, np.nan, np.nan, np.nan, np.nan, np.nan)
 """What there is where nothing drives a slide, or nothing resists it."""
 
 
-def critical_circle(surface: Surface, cohesion: float, friction_angle: float, unit_weight: float) -> SlipCircle:
+class Strata(NamedTuple):
+    """Layers of the ground from the surface down, each with one strength everywhere."""
+
+    cohesion: tuple[float, ...]  # Pa
+    friction_angle: tuple[float, ...]  # rad
+    unit_weight: tuple[float, ...]  # N/m3
+    interfaces: tuple[Surface, ...] = ()  # the k-th is the top of the layer k + 1, nowhere above those before
+
+
+def critical_circle(surface: Surface, strata: Strata) -> SlipCircle:
     """Return the circle with the least factor of safety, slides towards +x; `NO_CIRCLE` if there is none.
 
     Parameters
     ----------
     surface : Surface
         Of the ground; its base is at elevation 0.
-    cohesion, friction_angle, unit_weight : float
-        In Pa, rad and N/m3, everywhere the same.
+    strata : Strata
     """
     limits = [(0.0, surface.width), (0.0, surface.width), SAGITTAS]
     steps = [(high - low) / (count - 1) for (low, high), count in zip(limits, COARSE, strict=True)]
@@ -83,7 +94,7 @@ def critical_circle(surface: Surface, cohesion: float, friction_angle: float, un
     axes[:2] = [np.union1d(axis, surface.x) for axis in axes[:2]]
     for _ in range(1 + REFINEMENTS):
         entry, exit_, sagitta = (values.ravel() for values in np.meshgrid(*axes))
-        factors = factors_of_safety(surface, entry, exit_, sagitta, cohesion, friction_angle, unit_weight)
+        factors = factors_of_safety(surface, strata, entry, exit_, sagitta)
         best = int(np.argmin(factors))
         circle = entry[best], exit_[best], sagitta[best]
         axes = [
@@ -100,39 +111,25 @@ def critical_circle(surface: Surface, cohesion: float, friction_angle: float, un
     )
 
 
-def factor_on(
-    circle: SlipCircle, surface: Surface, cohesion: float, friction_angle: float, unit_weight: float
-) -> float:
-    """Return the factor of safety of a given circle for another strength, in Pa and rad."""
+def factor_on(circle: SlipCircle, surface: Surface, strata: Strata) -> float:
+    """Return the factor of safety of a given circle for another strength."""
     width = (circle.exit - circle.entry) / SLICES
     x = np.linspace(circle.entry, circle.exit, SLICES, endpoint=False, dtype=np.float64) + 0.5 * width
-    thickness = np.maximum(surface.height_at(x) - circle.elevation(x), 0.0)
-    sine = (circle.x - x) / circle.radius
-    weight, cosine = unit_weight * width * thickness, np.sqrt(1.0 - sine**2)
-    force = np.full(SLICES, cohesion * width)
-    return float(_bishop(weight[None], sine[None], cosine[None], force[None], np.tan(friction_angle))[0])
+    sine, base = (circle.x - x[None]) / circle.radius, np.minimum(circle.elevation(x), surface.height_at(x))
+    return float(_bishop(_slices(surface, strata, x[None], base[None], np.array([[width]]), sine))[0])
 
 
-def factors_of_safety(
-    surface: Surface,
-    entry: Array,
-    exit_: Array,
-    sagitta: Array,
-    cohesion: float,
-    friction_angle: float,
-    unit_weight: float,
-) -> Array:
+def factors_of_safety(surface: Surface, strata: Strata, entry: Array, exit_: Array, sagitta: Array) -> Array:
     """Return the factor of safety of each circle, infinite where it is none or nothing drives it.
 
     Parameters
     ----------
     surface : Surface
+    strata : Strata
     entry, exit_ : ndarray (k,)
         Places in m where a circle cuts the surface.
     sagitta : ndarray (k,)
         Depth of the arc under its chord, over the chord's length.
-    cohesion, friction_angle, unit_weight : float
-        In Pa, rad and N/m3.
     """
     is_possible = entry < exit_
     factor = np.full(entry.size, np.inf)
@@ -143,17 +140,38 @@ def factors_of_safety(
     sine = (centre_x[:, None] - x) / radius[:, None]
     falls = surface.height_at(entry) - surface.height_at(exit_)
     with np.errstate(invalid="ignore"):
-        cosine = np.sqrt(1.0 - sine**2)
-        thickness = surface.height_at(x) - (centre_y[:, None] - radius[:, None] * cosine)
+        base = centre_y[:, None] - radius[:, None] * np.sqrt(1.0 - sine**2)
         is_arc = centre_y >= surface.height_at(entry)  # else the arc would overhang
         is_arc &= _lowest(centre_x, centre_y, radius, entry, exit_) >= 0.0
-        is_arc &= np.all(thickness >= 0.0, axis=1)
+        is_arc &= np.all(surface.height_at(x) - base >= 0.0, axis=1)
         is_arc &= falls >= LEAST_FALL * surface.height
-    weight = unit_weight * thickness * width[:, None]
-    factor[np.flatnonzero(is_possible)[is_arc]] = _bishop(
-        weight[is_arc], sine[is_arc], cosine[is_arc], cohesion * width[is_arc, None], np.tan(friction_angle)
-    )
+    slices = _slices(surface, strata, x[is_arc], base[is_arc], width[is_arc, None], sine[is_arc])
+    factor[np.flatnonzero(is_possible)[is_arc]] = _bishop(slices)
     return factor
+
+
+class _Slices(NamedTuple):
+    """Vertical slices of k circles, each (k, slices)."""
+
+    weight: Array  # N/m
+    cohesive_force: Array  # N/m, c b
+    tangent: Array  # tan(phi) at the base
+    sine: Array  # of the dip of the base
+    cosine: Array
+
+
+def _slices(surface: Surface, strata: Strata, x: Array, base: Array, width: Array, sine: Array) -> _Slices:
+    """Return slices of a `width` in m around `x`, whose bases have their middle at the elevation `base` in m."""
+    cosine = np.sqrt(1.0 - sine**2)
+    above = thickness_above(surface, strata.interfaces, x, base)
+    weight = sum(each * thickness for each, thickness in zip(strata.unit_weight, above, strict=True)) * width
+    places = BASE_PLACES if strata.interfaces else 1
+    aside = (width * ((np.arange(places) + 0.5) / places - 0.5))[..., None, :]
+    layer = layer_at(strata.interfaces, x[..., None] + aside, base[..., None] - (sine / cosine)[..., None] * aside)
+    cohesion, tangent = (
+        np.asarray(each)[layer].mean(axis=-1) for each in (strata.cohesion, np.tan(strata.friction_angle))
+    )
+    return _Slices(weight, cohesion * width, tangent, sine, cosine)
 
 
 def _circles(surface: Surface, entry: Array, exit_: Array, sagitta: Array) -> tuple[Array, Array, Array]:
@@ -175,13 +193,13 @@ def _lowest(centre_x: Array, centre_y: Array, radius: Array, entry: Array, exit_
     return np.asarray(centre_y - np.sqrt(np.maximum(radius**2 - aside**2, 0.0)))
 
 
-def _bishop(weight: Array, sine: Array, cosine: Array, cohesive_force: Array, tangent: float) -> Array:
-    driving = np.sum(weight * sine, axis=1)
-    resisting = cohesive_force + weight * tangent
+def _bishop(slices: _Slices) -> Array:
+    driving = np.sum(slices.weight * slices.sine, axis=1)
+    resisting = slices.cohesive_force + slices.weight * slices.tangent
     factor = np.ones(driving.size)
     with np.errstate(divide="ignore", invalid="ignore"):
         for _ in range(ITERATIONS):
-            share = cosine + sine * tangent / factor[:, None]
+            share = slices.cosine + slices.sine * slices.tangent / factor[:, None]
             factor = np.sum(resisting / share, axis=1) / driving
             factor = np.where((driving > 0.0) & (share.min(axis=1) > 0.2) & (factor > 0.0), factor, np.inf)
     return factor

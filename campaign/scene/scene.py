@@ -6,7 +6,8 @@ from hashlib import sha256
 from typing import Any
 
 from campaign.scene.ground_surface import surface_of
-from campaign.scene.sections import SceneFile
+from campaign.scene.layer_soil import soils_of, written_out
+from campaign.scene.sections import SceneFile, Soil
 
 ADDED_LATER = {"soil.law": "mohr-coulomb"}
 """Values of keys that older scenes do not have; with these a scene is what it was before."""
@@ -35,10 +36,15 @@ class Scene(SceneFile):
         given = self.slide.front_area
         return (FRONT_WEDGE * surface_of(self.geometry).height) ** 2 if given is None else given
 
+    @property
+    def soils(self) -> tuple[Soil, ...]:
+        """The soil of each layer, whole, from the surface down."""
+        return soils_of(self)
+
     def identity(self) -> dict[str, Any]:
         """Return, by dotted key, every SI value that decides what realization k is; ready for JSON."""
         told = {"geometry", "soil", "field", "numerics", "slide", "receptor"}
-        sections = self.model_dump(mode="json", include=told, exclude=NOT_IDENTITY)
+        sections = self.model_dump(mode="json", include=told, exclude=NOT_IDENTITY) | {"layer": written_out(self)}
         values = flatten(sections) | {"campaign.seed": self.campaign.seed, "slide.front_area": self.front_area}
         return {key: value for key, value in values.items() if value is not None and value != ADDED_LATER.get(key)}
 

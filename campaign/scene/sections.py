@@ -1,13 +1,12 @@
 """The sections of a scene, frozen and checked key by key; every number in SI units."""
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from campaign.fields.correlation import KERNELS
 from campaign.fields.properties import BY_NAME
 from campaign.scene.constraints import (
-    LISTED,
     NOT_NEGATIVE,
     POSITIVE,
     AcuteAngle,
@@ -30,6 +29,8 @@ from campaign.scene.constraints import (
     SmallFraction,
     Stretch,
     ToleranceText,
+    Top,
+    listed,
     must,
     one_of,
 )
@@ -103,6 +104,38 @@ class Soil(Section):
     cohesion: Cohesion
     friction_angle: FrictionAngle | None = None
     softening: Softening
+
+
+def _partly(section: type[Section], without: str = "", **inner: type[Section]) -> type[Section]:
+    """Return a section of the same keys, of which any may be left out; `inner` are those that are sections."""
+    fields: dict[str, Any] = {}
+    for name, field in section.model_fields.items():
+        if name != without:
+            own: Any = Annotated[(field.annotation, *field.metadata)] if field.metadata else field.annotation
+            fields[name] = (inner.get(name, own) | None, None)
+    doc = f"What is other than in [soil]. {section.__doc__}"
+    return create_model(f"Partly{section.__name__}", __base__=Section, __module__=__name__, __doc__=doc, **fields)
+
+
+if TYPE_CHECKING:
+    PartlySoil = Section
+else:
+    PartlyCohesion, PartlyFrictionAngle = _partly(Cohesion), _partly(FrictionAngle)
+    PartlySoftening = _partly(Softening, without="internal_length")
+    PartlySoil = _partly(Soil, cohesion=PartlyCohesion, friction_angle=PartlyFrictionAngle, softening=PartlySoftening)
+
+
+class Layer(PartlySoil):
+    """Ground below that before it: its top as points (x, elevation) in m, or as a depth in m below the surface.
+
+    What it leaves out is as in [soil], see `campaign.scene.layers`. The fields of the random properties are those of
+    all layers, or its own.
+    """
+
+    name: Annotated[Name, Field(examples=["soft clay"])]
+    top: Top | None = None
+    depth: PositiveLength | None = None
+    field: Literal["shared", "own"] = "shared"
 
 
 CrossCorrelation = Annotated[float, must("lie between -1 and 1, both excluded", lambda rho: -1.0 < rho < 1.0)]
@@ -220,8 +253,9 @@ class SceneFile(Section):
     title: Line
     geometry: Geometry
     soil: Soil
+    layer: Annotated[tuple[Layer, ...], Field(strict=False), listed("layer", "layer")] = ()
     field: RandomField
     numerics: Numerics
     slide: Slide = Slide()
-    receptor: Annotated[tuple[Receptor, ...], Field(strict=False), LISTED] = ()
+    receptor: Annotated[tuple[Receptor, ...], Field(strict=False), listed("receptor", "place")] = ()
     campaign: Campaign

@@ -48,8 +48,12 @@ def share_left(softening: Softening, slip: float, is_locked: bool) -> float:
 
 
 def is_brittle(scene: Scene, height: float) -> bool:
-    """Whether strength is residual after a slip of a tenth of the height in m: a slide then breaks up as it begins."""
-    return share_left(scene.soil.softening, BRITTLE * height, scene.numerics.locking == "none") <= SHARE_LEFT
+    """Whether strength is residual after a slip of a tenth of the height in m: a slide then breaks up as it begins.
+
+    One layer of such soil is enough.
+    """
+    is_locked = scene.numerics.locking == "none"
+    return any(share_left(soil.softening, BRITTLE * height, is_locked) <= SHARE_LEFT for soil in scene.soils)
 
 
 def softening_words(softening: Softening) -> str:

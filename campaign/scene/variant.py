@@ -1,10 +1,12 @@
 """A scene with something else than its author wrote."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from campaign.scene.cost import realization_seconds
+from campaign.scene.layer_soil import gives
 from campaign.scene.loading import load_scene
 from campaign.scene.scene import Scene
+from campaign.scene.sections import Soil
 from campaign.scene.units import PRESSURE, shown_in_unit
 
 
@@ -29,6 +31,16 @@ def with_cell(scene: Scene, factor: float) -> str:
     return f"numerics.cell={factor * scene.numerics.cell:g} m"
 
 
-def with_stiffness(scene: Scene, factor: float) -> str:
-    """Return the change to so many times Young's modulus, with which waves and steps change by the root of it."""
-    return f"soil.young_modulus={shown_in_unit(factor * scene.soil.young_modulus, PRESSURE)}"
+def with_stiffness(scene: Scene, factor: float) -> tuple[str, ...]:
+    """Return the changes to so many times Young's modulus, with which waves and steps change by the root of it."""
+    return in_all_layers(scene, "soil.young_modulus", lambda soil: shown_in_unit(factor * soil.young_modulus, PRESSURE))
+
+
+def in_all_layers(scene: Scene, key: str, value: Callable[[Soil], str]) -> tuple[str, ...]:
+    """Return the changes of a key of [soil], and of the layers that do not leave it out, to a value for each soil."""
+    own = (
+        f"layer.{number}.{key.partition('.')[2]}={value(scene.soils[number])}"
+        for number, layer in enumerate(scene.layer, start=1)
+        if gives(layer, key)
+    )
+    return (f"{key}={value(scene.soil)}", *own)

@@ -48,11 +48,23 @@ def explain(details: list[ErrorDetails], document: Document, model: type[BaseMod
 
 def wrong_value(location: Location, complaint: str, document: Document) -> str:
     """Return the sentence "KEY (FILE, LINE) is VALUE, but COMPLAINT."."""
+    return f"{document.place(location)} {_state(location, document)}, but {complaint}."
+
+
+def _state(location: Location, document: Document) -> str:
+    """Say what a value is; what a layer leaves out is as in [soil]."""
     try:
-        state = f"is {shown(document.value(location))}"
+        return f"is {shown(document.value(location))}"
     except LookupError:
-        state = "is not given"
-    return f"{document.place(location)} {state}, but {complaint}."
+        array, *rest = location
+        return "is not given" if array != "layer" else _state_as_in_soil(("soil", *rest[1:]), document)
+
+
+def _state_as_in_soil(location: Location, document: Document) -> str:
+    try:
+        return f"is {shown(document.value(location))} as in [soil]"
+    except LookupError:
+        return "is not given"
 
 
 def section_fields(model: type[BaseModel], location: Location) -> Mapping[str, Any]:

@@ -14,8 +14,9 @@ from campaign.fields.properties import BY_NAME, value_of
 from campaign.running.study import Changes
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.layers import layer_scenes
 from campaign.scene.units import PRESSURE, shown_in_unit
-from campaign.scene.variant import with_cell, with_stiffness
+from campaign.scene.variant import in_all_layers, with_cell, with_stiffness
 from campaign.simulation.scene_sampler import CELLS_PER_DISTANCE, correlation_of
 from campaign.statistics.release import OTHER
 
@@ -68,20 +69,31 @@ def choices_of(scene: Scene) -> list[Choice]:
 
 
 def _soil(scene: Scene) -> Iterator[Choice]:
+    layers = layer_scenes(scene)
+    if scene.layer:
+        yield Choice("layers", "the soil of the surface", ("layer=[]",))
     for row in (BY_NAME[name] for name in PEAKS):
-        cov = value_of(scene, row.cov_key)
-        if cov is not None and cov > NOT_RANDOM:
-            yield Choice(f"random {row.long_name}", "its mean", (f"{row.cov_key}={NOT_RANDOM:g}",))
-    if drawn := [name for name in RESIDUALS if value_of(scene, BY_NAME[name].cov_key)]:
-        fixed = [f"{BY_NAME[name].cov_key}=0" for name in drawn]
+        if any((value_of(layer, row.cov_key) or 0.0) > NOT_RANDOM for layer in layers):
+            changes = _everywhere(scene, row.cov_key, f"{NOT_RANDOM:g}")
+            yield Choice(f"random {row.long_name}", "its mean", changes)
+    drawn = [name for name in RESIDUALS if any(value_of(layer, BY_NAME[name].cov_key) for layer in layers)]
+    if drawn:
+        fixed = [change for name in drawn for change in _everywhere(scene, BY_NAME[name].cov_key, "0")]
         yield Choice("random residual strength", "its mean", (*fixed, *_pairs_without(scene, drawn)))
-    if scene.soil.softening.law != "none":
-        yield Choice("softening", "none", ("soil.softening.law=none",))
-    if scene.soil.dilation_angle > 0.0:
-        yield Choice("dilation", "none", ("soil.dilation_angle=0 deg",))
+    if any(soil.softening.law != "none" for soil in scene.soils):
+        yield Choice("softening", "none", _everywhere(scene, "soil.softening.law", "none"))
+    if any(soil.dilation_angle > 0.0 for soil in scene.soils):
+        yield Choice("dilation", "none", _everywhere(scene, "soil.dilation_angle", "0 deg"))
     modulus = scene.soil.young_modulus
     instead = shown_in_unit(modulus / SOFTER, PRESSURE)
-    yield Choice(f"modulus {shown_in_unit(modulus, PRESSURE)}", instead, (with_stiffness(scene, 1 / SOFTER),))
+    yield Choice(f"modulus {shown_in_unit(modulus, PRESSURE)}", instead, with_stiffness(scene, 1 / SOFTER))
+
+
+def _everywhere(scene: Scene, key: str, value: str) -> tuple[str, ...]:
+    """Return the changes of a key to a value in [soil], if it has such a section, and in layers with their own."""
+    changes = in_all_layers(scene, key, lambda _soil: value)
+    has_section = getattr(scene.soil, key.split(".")[1]) is not None
+    return changes if has_section else changes[1:]
 
 
 def _pairs_without(scene: Scene, names: Iterable[str]) -> list[str]:

@@ -21,6 +21,7 @@ COORDINATES: dict[str, Quantity] = {
     "particle_y": Quantity(("particle",), "m", "initial elevation of the particle"),
     "receptor": Quantity(("receptor",), "", "name of the receptor", TEXT),
     "receptor_x": Quantity(("receptor",), "m", "middle of the receptor"),
+    "layer": Quantity(("layer",), "", "name of the layer, from the surface down", TEXT),
     "property": Quantity(("property",), "", "random property of the soil", TEXT),
     "box_x": Quantity(("box_x",), "m", "horizontal place of the middle of the box"),
     "box_y": Quantity(("box_y",), "m", "elevation of the middle of the box"),
@@ -29,6 +30,7 @@ COORDINATES: dict[str, Quantity] = {
 
 SHARED: dict[str, Quantity] = {
     "receptor_x_bounds": Quantity(("receptor", "bound"), "m", "near and far end of the receptor"),
+    "particle_layer": Quantity(("particle",), "1", "number of the particle's layer, from 0", "i1"),
     "initial_surface": Quantity(("x",), "m", "initial elevation of the ground surface"),
 }
 """What else is the same in all realizations."""

@@ -8,7 +8,7 @@ from campaign.fields.samplers import MEMORY_LIMIT
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint
 from campaign.scene.ground_surface import surface_of
-from campaign.simulation.scene_sampler import AUTOMATIC, CELLS_PER_DISTANCE, correlation_of
+from campaign.simulation.scene_sampler import AUTOMATIC, correlation_of, reference_grid
 from campaign.terminal import data_size
 
 PERIODS = {"exponential": (3.5, 20.0), "squared-exponential": (9.5, 12.0), "turned": (9.5, 20.0)}
@@ -39,13 +39,12 @@ def field_size(scene: Scene) -> FieldSize:
     """Return the size of a scene's random field."""
     field, ground = scene.field, surface_of(scene.geometry)
     correlation = correlation_of(field)
-    resolution = field.resolution or min(correlation.horizontal, correlation.vertical) / CELLS_PER_DISTANCE
-    grid = ReferenceGrid.covering(ground.width, ground.top, resolution)
+    grid = reference_grid(scene, ground.width, ground.top)
     method = AUTOMATIC if field.sampler == "auto" else field.sampler
     if method == "circulant":
-        return FieldSize(resolution, grid.shape, *circulant_bytes(correlation, grid))
-    points = max(grid.shape) if method == "kronecker" else ground.area / resolution**2
-    return FieldSize(resolution, grid.shape, 8.0 * points**2, 8.0 * points**2)
+        return FieldSize(grid.resolution, grid.shape, *circulant_bytes(correlation, grid))
+    points = max(grid.shape) if method == "kronecker" else ground.area / grid.resolution**2
+    return FieldSize(grid.resolution, grid.shape, 8.0 * points**2, 8.0 * points**2)
 
 
 def circulant_bytes(correlation: Correlation, grid: ReferenceGrid) -> tuple[float, float]:

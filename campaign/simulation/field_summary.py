@@ -5,6 +5,7 @@ of the whole ground, which does not know of the slide. The map is read off the f
 every mesh.
 """
 
+from collections.abc import Callable
 from math import ceil
 from typing import NamedTuple
 
@@ -93,14 +94,21 @@ class BoxMap(NamedTuple):
     cell: tuple[NDArray[np.intp], NDArray[np.intp]]
 
     def means(self, field: Strengths) -> Array:
-        """Return the means of ln(property) over the boxes, (property, row, column); NaN where there is no ground.
+        """Return the means of ln(property) over the boxes, (property, row, column); NaN where none is random.
 
         The logarithm is the Gaussian field but for a factor and a constant, whatever the unit.
         """
-        values = np.log(field.values[:, *self.cell])
+        return self.averages(field.values, np.log)
+
+    def averages(self, values: Array, of: Callable[[Array], Array] = np.asarray) -> Array:
+        """Return the means over the boxes, (n, row, column), of a function of values on the reference grid (n, ny, nx).
+
+        Points where a value is not finite do not count; without any that count the mean is NaN.
+        """
+        read = of(values[:, *self.cell])
         boxes = self.y.size * self.x.size
-        means = np.full((len(values), boxes), np.nan)
-        for mean, value in zip(means, values, strict=True):
+        means = np.full((len(read), boxes), np.nan)
+        for mean, value in zip(means, read, strict=True):
             is_drawn = np.isfinite(value)
             count = np.bincount(self.box[is_drawn], minlength=boxes)
             total = np.bincount(self.box[is_drawn], value[is_drawn], minlength=boxes)

@@ -1,6 +1,6 @@
 """The ground that all realizations of a scene share, and the door to each of them."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from campaign.errors import RefusalError
-from campaign.fields.properties import PROPERTIES, SoilProperty, raised_to_floor, random_properties
+from campaign.fields.properties import PROPERTIES, SoilProperty, marginals, raised_to_floor
 from campaign.fields.strengths import Strengths, StrengthSampler
 from campaign.record import Quantity, Record, with_dims
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.layers import layer_names, layer_scenes, random_properties
 from campaign.scene.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.simulation.contract import TEXT, sizes
@@ -82,6 +83,8 @@ class Ground:
             "box_x": self.boxes.x,
             "box_y": self.boxes.y,
         }
+        if self.scene.layer:
+            places |= {"layer": np.array(layer_names(self.scene), dtype=TEXT), "particle_layer": self.lattice.material}
         return places | self._receptor_coordinates() if self.scene.receptor else places
 
     def _receptor_coordinates(self) -> dict[str, NDArray[Any]]:
@@ -182,28 +185,50 @@ class Ground:
         """What the scene makes random."""
         return random_properties(self.scene)
 
+    def particles_of_layers(self, *names: str) -> list[NDArray[np.bool_]]:
+        """Return the mask (n,) of the particles of each layer in which some properties are random."""
+        return [is_here for layer, is_here in self._layers() if marginals(layer).keys() >= {*names}]
+
+    def is_random(self, name: str) -> NDArray[np.bool_]:
+        """Return the mask (n,) of the particles at which a property is random."""
+        return np.asarray(np.any(self.particles_of_layers(name), axis=0))
+
     def released(self, realization: int) -> Particles:
         """Return the in-situ state with the soil of a realization; nowhere is peak strength below residual."""
         return self._with(self.draw(realization))
 
     def _with(self, field: Strengths) -> Particles:
-        drawn = raised_to_floor(self._at_particles(field), self.scene)
-        means = {row.name: np.full(self.n_particles, row.mean(self.scene)) for row in PROPERTIES}
-        return self.in_situ._replace(**{row.particle_array: (means | drawn)[row.name] for row in PROPERTIES})
+        drawn, values = self._at_particles(field), np.empty((len(PROPERTIES), self.n_particles))
+        for layer, is_here in self._layers():
+            raised = raised_to_floor(_random_in(layer, drawn, is_here), layer)
+            for row, value in zip(PROPERTIES, values, strict=True):
+                value[is_here] = raised.get(row.name, row.mean(layer))
+        return self.in_situ._replace(
+            **{row.particle_array: value for row, value in zip(PROPERTIES, values, strict=True)}
+        )
 
     def raised_shares(self, realization: int) -> dict[str, float]:
         """Return the share of particles at which a drawn peak is below the residual and is raised to it, by name."""
-        drawn = self._at_particles(self.draw(realization))
-        raised = raised_to_floor(drawn, self.scene)
+        drawn, released = self._at_particles(self.draw(realization)), self.released(realization)
         return {
-            row.name: float(np.mean(raised[row.name] > drawn[row.name]))
+            row.name: float(np.mean(getattr(released, row.particle_array) > drawn[row.name]))
             for row in self.random_properties
             if row.floor_key
         }
 
+    def _layers(self) -> Iterator[tuple[Scene, NDArray[np.bool_]]]:
+        """Yield the scene with the soil of each layer, and the mask of its particles."""
+        for number, layer in enumerate(layer_scenes(self.scene)):
+            yield layer, self.lattice.material == number
+
     def _at_particles(self, field: Strengths) -> dict[str, Array]:
         within = np.minimum(self.lattice.x, self.model.surface.width)  # a wall may stand beyond by part of a cell
-        return field.at(within, self.lattice.y)
+        return field.at(within, self.lattice.y, self.lattice.material)
+
+
+def _random_in(layer: Scene, drawn: Mapping[str, Array], is_here: NDArray[np.bool_]) -> dict[str, Array]:
+    """Return the properties that are random in a layer, at its particles."""
+    return {name: drawn[name][is_here] for name in marginals(layer)}
 
 
 def prepare(scene: Scene, directory: Path | None = None) -> Ground:

@@ -1,19 +1,22 @@
 """The sampler that a scene asks for."""
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from campaign.fields.cholesky import CholeskySampler
-from campaign.fields.correlation import Correlation, autocorrelation_distance
+from campaign.fields.correlation import Array, Correlation, autocorrelation_distance
 from campaign.fields.cross_correlation import gaussian_matrix, lower_factor
 from campaign.fields.properties import marginals
 from campaign.fields.reference_grid import Mask, ReferenceGrid
 from campaign.fields.samplers import CirculantSampler, KroneckerSampler, Sampler
-from campaign.fields.strengths import StrengthSampler
+from campaign.fields.strengths import LayerSoil, StrengthSampler
+from campaign.scene.layers import interfaces_of, layer_at, layer_scenes, random_properties
 from campaign.scene.scene import Scene
 from campaign.scene.sections import RandomField
+from solver.surface import Surface
 
 AUTOMATIC = "circulant"
 """Sampler for any correlation and angle, and the only one without a matrix factorisation, whose last bits depend on the
@@ -43,16 +46,39 @@ def strength_sampler(
     SamplerError
         If the sampler cannot draw this field.
     """
-    field = scene.field
-    correlation = correlation_of(field)
-    finest = min(correlation.horizontal, correlation.vertical)
-    grid = ReferenceGrid.covering(width, height, field.resolution or finest / CELLS_PER_DISTANCE)
+    field, correlation, grid = scene.field, correlation_of(scene.field), reference_grid(scene, width, height)
     method = AUTOMATIC if field.sampler == "auto" else field.sampler
     cells = grid.cells_with(soil if method == "cholesky" else None)
-    laws = marginals(scene)
-    matrix = gaussian_matrix(laws, field.cross_correlations(), field.cross_correlation_of)
     gaussian = gaussian_sampler(method, correlation, grid, cells, directory)
-    return StrengthSampler(grid, cells, gaussian, laws, lower_factor(matrix))
+    if not scene.layer:
+        return StrengthSampler(grid, cells, gaussian, (soil_of_layer(scene),))
+    interfaces = interfaces_of(scene)
+    soils = []
+    for number, layer in enumerate(layer_scenes(scene)):
+        has_own = number > 0 and scene.layer[number - 1].field == "own"
+        own = soil_of_layer(layer, number if has_own else 0)
+        means = {row.name: row.mean(layer) for row in random_properties(scene) if row.name not in own.marginals}
+        soils.append(own._replace(means=means, cells=grid.cells_with(partial(_is_in, interfaces, number))))
+    return StrengthSampler(grid, cells, gaussian, tuple(soils), layer_at(interfaces, *np.meshgrid(grid.x, grid.y)))
+
+
+def reference_grid(scene: Scene, width: float, height: float) -> ReferenceGrid:
+    """Return the grid on which the fields of a scene are drawn, over a box of `width` x `height` [m]."""
+    correlation = correlation_of(scene.field)
+    finest = min(correlation.horizontal, correlation.vertical)
+    return ReferenceGrid.covering(width, height, scene.field.resolution or finest / CELLS_PER_DISTANCE)
+
+
+def soil_of_layer(scene: Scene, field: int = 0) -> LayerSoil:
+    """Return what the [soil] of a scene makes of the common Gaussian fields, or of those of a layer alone."""
+    laws = marginals(scene)
+    pairs = {pair: rho for pair, rho in scene.field.cross_correlations().items() if laws.keys() >= {*pair}}
+    matrix = gaussian_matrix(laws, pairs, scene.field.cross_correlation_of)
+    return LayerSoil(laws, lower_factor(matrix), field=field)
+
+
+def _is_in(interfaces: tuple[Surface, ...], number: int, x: Array, y: Array) -> NDArray[np.bool_]:
+    return np.asarray(layer_at(interfaces, x, y) == number)
 
 
 def correlation_of(field: RandomField) -> Correlation:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.layers import interfaces_of, layer_scenes
 from campaign.scene.scene import Scene
 from campaign.scene.softening import softening_rate
 from solver.constants import STANDARD_GRAVITY
@@ -26,7 +27,7 @@ def model_of(scene: Scene) -> Model:
     numerics, slide = scene.numerics, scene.slide
     return Model(
         surface=surface_of(scene.geometry),
-        materials=(material_of(scene),),
+        materials=tuple(material_of(layer) for layer in layer_scenes(scene)),
         cell_size=numerics.cell,
         particles_per_cell=numerics.particles_per_cell,
         courant=numerics.courant,
@@ -34,11 +35,12 @@ def model_of(scene: Scene) -> Model:
         internal_length=scene.soil.softening.internal_length or 0.0,
         ramp_time=numerics.ramp_time if numerics.gravity == "ramp" else 0.0,
         criteria=SlideCriteria(slide.displaced, slide.failed, scene.front_area, slide.front),
+        interfaces=interfaces_of(scene),
     )
 
 
 def material_of(scene: Scene) -> Material:
-    """Return what the soil of a scene is made of."""
+    """Return what the [soil] of a scene is made of."""
     soil = scene.soil
     softening = Softening(softening_rate(scene), soil.softening.law == "linear")
     constants = Constants(soil.young_modulus, soil.poisson_ratio, soil.dilation_angle, softening)

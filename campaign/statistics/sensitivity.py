@@ -95,17 +95,21 @@ def _resampled(
 
 
 def means_over(field_map: Matrix, weights: Matrix) -> Matrix:
-    """Return the weighted means (n, property) of maps (n, property, row, column); boxes without ground count nothing.
+    """Return the weighted means (n, property) of maps (n, property, row, column); boxes without values count nothing.
 
     Parameters
     ----------
     field_map : array (n, property, row, column)
-        NaN where there is no ground.
+        NaN where there is no ground, and where the property is not random.
     weights : array (row, column)
+        A property that is random only where they are 0 has equal ones.
     """
-    has_ground = np.isfinite(field_map).all(axis=(0, 1))
-    counted = np.where(has_ground, weights, 0.0)
-    return np.asarray(np.einsum("nprc,rc->np", np.where(has_ground, field_map, 0.0), counted / counted.sum()))
+    has_value = np.isfinite(field_map).all(axis=0)
+    counted = np.where(has_value, weights, 0.0)
+    is_out = counted.sum(axis=(1, 2), keepdims=True) == 0.0
+    counted = np.where(is_out, has_value, counted)
+    shares = counted / counted.sum(axis=(1, 2), keepdims=True)
+    return np.asarray(np.einsum("nprc,prc->np", np.where(has_value, field_map, 0.0), shares))
 
 
 def moving_ground(places: Sequence[Sample], boxes: Sequence[Sample], share: Sample) -> Matrix:

@@ -28,7 +28,8 @@ class SensitivityMap(NamedTuple):
     Attributes
     ----------
     change, error : arrays (property, row, column)
-        Of the run-out in m, and its standard error by sampling; NaN where there is no ground.
+        Of the run-out in m, and its standard error by sampling; NaN where there is no ground, or the
+        property is not random.
     is_clear : bool array (property, row, column)
         Whether the change can be told from none.
     everywhere : tuple of Interval
@@ -50,15 +51,14 @@ def sensitivity_map(field_map: Matrix, runouts: Sample, confidence: float) -> Se
     Parameters
     ----------
     field_map : array (n, property, row, column)
-        Means of the logarithm of the properties; NaN where there is no ground.
+        Means of the logarithm of the properties; NaN where there is no ground, or the property is not random.
     runouts : array (n,)
         In m.
     confidence : float
         Of `everywhere`, and 1 - the false discovery rate of `is_clear`.
     """
-    n, properties, *boxes = field_map.shape
-    has_ground = np.isfinite(field_map).all(axis=(0, 1))
-    logarithms = field_map[:, :, has_ground].reshape(n, -1)
+    is_random = np.asarray(np.isfinite(field_map).all(axis=0))
+    logarithms = field_map[:, is_random]
     scatter = logarithms.std(axis=0, ddof=1)
     fit = ridge(logarithms / scatter, runouts)
     step = math.log1p(MORE) / scatter
@@ -66,12 +66,12 @@ def sensitivity_map(field_map: Matrix, runouts: Sample, confidence: float) -> Se
     chance = 2 * special.ndtr(-np.abs(change) / error)
 
     def on_map(values: Sample, missing: float) -> Matrix:
-        filled = np.full((properties, *boxes), missing)
-        filled[:, has_ground] = values.reshape(properties, -1)
+        filled = np.full(is_random.shape, missing)
+        filled[is_random] = values
         return filled
 
     is_clear = on_map(_false_discovery_rate(chance), 1.0) <= 1 - confidence
-    everywhere = (_sum(fit, each, confidence) for each in _of_each(step, properties))
+    everywhere = (_sum(fit, each, confidence) for each in _of_each(step, is_random))
     return SensitivityMap(on_map(change, np.nan), on_map(error, np.nan), is_clear, tuple(everywhere), fit.explained)
 
 
@@ -81,9 +81,10 @@ def _false_discovery_rate(chance: Sample) -> Sample:
     return np.asarray(false_discovery_control(chance))
 
 
-def _of_each(step: Sample, properties: int) -> Matrix:
+def _of_each(step: Sample, is_random: NDArray[np.bool_]) -> Matrix:
     """Return the steps of one property at a time, the others zero, (property, m)."""
-    return np.asarray(np.eye(properties).repeat(len(step) // properties, axis=1) * step)
+    properties = np.arange(len(is_random))
+    return np.where(properties[:, None] == np.nonzero(is_random)[0], step, 0.0)
 
 
 def _sum(fit: Ridge, step: Sample, confidence: float) -> Interval:

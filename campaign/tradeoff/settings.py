@@ -31,7 +31,7 @@ WORDS = {
 
 def in_short(changes: Changes) -> str:
     """Return changes in a few words, "cell 2 m, E 10 MPa"."""
-    parts = (change.partition("=") for change in changes)
+    parts = (change.partition("=") for change in changes if not change.startswith("layer."))  # as told of the soil
     return ", ".join(WORDS[key].format(value) for key, _, value in parts) or OWN
 
 
@@ -49,7 +49,7 @@ def settings(scene: Scene) -> list[Changes]:
         for value in values
         if value != _own(scene, key)
     )
-    return [(softer,), (with_cell(scene, 2.0),), (with_cell(scene, 2.0), softer), *map(tuple, single)]
+    return [softer, (with_cell(scene, 2.0),), (with_cell(scene, 2.0), *softer), *map(tuple, single)]
 
 
 def needed(scene: Scene, key: str, value: str | int | float) -> list[str]:

@@ -4,7 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patches import Polygon
 
+from campaign.report.figures.section import Section
 from campaign.report.figures.style import BLUE, ORANGE, STILL
 from campaign.results.results import Results
 from campaign.simulation.solver_model import Array
@@ -46,10 +48,15 @@ def deposit_of(results: Results, width: float) -> Deposit:
     return Deposit(x, before, low, median, high, band)
 
 
-def draw_deposit(axes: Axes, deposit: Deposit, has_slides: bool) -> None:
-    """Fill the ground, and draw what the slides add and take away with the band of their surfaces."""
+def draw_deposit(axes: Axes, deposit: Deposit, section: Section, has_slides: bool) -> None:
+    """Fill the ground by its layers, and draw what the slides add and take away with the band of their surfaces."""
     x, before, median = deposit.x, deposit.before, deposit.median
-    axes.fill_between(x, 0.0, np.minimum(before, median), color=STILL, linewidth=0)
+    lowest = np.minimum(before, median)
+    if section.layers:
+        still = [(0.0, 0.0), *zip(x.tolist(), lowest.tolist(), strict=True), (float(x[-1]), 0.0)]
+        section.tint_layers(axes, axes.add_patch(Polygon(still, facecolor="none", edgecolor="none")))
+    else:
+        axes.fill_between(x, 0.0, lowest, color=STILL, linewidth=0)
     changes = {"ground added": (median > before, ORANGE), "ground lost": (median < before, SCAR)} if has_slides else {}
     for label, (where, colour) in changes.items():
         axes.fill_between(

@@ -1,6 +1,6 @@
 """Which inputs matter: what more of each changes, and how closely the run-out follows the random soil."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -9,7 +9,7 @@ from campaign.report.figures.style import BLACK, BLUE, COLUMN, ORANGE, Illustrat
 from campaign.report.inputs import TENTH, names
 from campaign.results.results import Results
 from campaign.results.sensitivity import effects_of, ranking_of
-from campaign.scene.inputs import BY_KEY
+from campaign.scene.inputs import Input, by_key
 from campaign.statistics.changed_inputs import InputEffects
 from campaign.statistics.intervals import Interval
 from campaign.statistics.sensitivity import FEWEST, Ranking
@@ -28,7 +28,7 @@ def ranking(results: Results) -> Illustration:
     figure, panels = new_figure(sum(rows) * BAR + len(rows) * OVERHEAD, len(rows), COLUMN, height_ratios=rows)
     titles, captions, rest = [], [], iter(panels)
     if effects:
-        captions.append(_inputs(next(rest), effects))
+        captions.append(_inputs(next(rest), effects, by_key(results.scene)))
         titles.append(f"{TENTH} of one input")
     for outcome, found in soil.items():
         captions.append(_properties(next(rest), found, names(results)))
@@ -44,9 +44,9 @@ def _soil(results: Results) -> dict[str, Ranking]:
     return {outcome: each for outcome, each in found.items() if each is not None}
 
 
-def _inputs(axes: Axes, effects: InputEffects) -> str:
+def _inputs(axes: Axes, effects: InputEffects, named: Mapping[str, Input]) -> str:
     ranked = effects.known()
-    _bars(axes, [BY_KEY[key].name for key in ranked], list(ranked.values()), 0.6, BLUE)
+    _bars(axes, [named[key].name for key in ranked], list(ranked.values()), 0.6, BLUE)
     axes.set_xlabel("change of the run-out (m)")
     return (
         f"What {TENTH} of one input, all else unchanged, makes of the run-out of a slide: the mean of "

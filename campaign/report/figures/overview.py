@@ -44,7 +44,7 @@ def overview(results: Results, curve: Curve, section: Section, width: float) -> 
     placed = place_labels(labels, deposit.clear, scale, section.right)
     section = replace(section, top=max(section.top, highest(placed, scale)))
     panels = _panels(section, width, results.outcomes.slides > 0)
-    draw_deposit(panels.section, deposit, results.outcomes.slides > 0)
+    draw_deposit(panels.section, deposit, section, results.outcomes.slides > 0)
     section.frame(panels.section)
     panels.section.set_xlabel("distance (m)")
     draw_total_intervals(panels.section, results, section)

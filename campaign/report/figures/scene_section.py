@@ -7,15 +7,17 @@ from textwrap import fill
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
 from campaign.fields.properties import BY_NAME, SoilProperty
 from campaign.fields.strengths import Strengths
 from campaign.report.figures.labels import Label, highest, place_labels, write_labels
-from campaign.report.figures.section import SKY, Section
+from campaign.report.figures.section import SKY, Section, drawn_layers
 from campaign.report.figures.style import BLACK, BLUE, GREY, ORANGE, WIDTH, Illustration, in_style, letter, new_figure
 from campaign.scene import Scene
 from campaign.scene.first_look import FirstLook, look_at
+from campaign.scene.layers import interfaces_of
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.simulation.ground import strengths_of
 from solver.grid import whole_cells
@@ -48,7 +50,15 @@ def save(scene: Scene, realization: int, path: Path) -> None:
 
 def scene_section(scene: Scene, look: FirstLook, strengths: Strengths, realization: int) -> Illustration:
     """Draw the section of a scene, and below it the strengths of a realization."""
-    section = Section(look.surface, scene.numerics.cell, look.surface.width, SKY * look.surface.top, scene.receptor)
+    section = Section(
+        look.surface,
+        scene.numerics.cell,
+        look.surface.width,
+        SKY * look.surface.top,
+        scene.receptor,
+        drawn_layers(scene),
+        interfaces_of(scene),
+    )
     scale = SHARE * WIDTH / section.right
     # Text may go on beside the section, where the panels below have the bars of their colours.
     placed = place_labels(_places(section), section.surface.height_at, scale, section.right / SHARE)
@@ -71,6 +81,10 @@ def scene_section(scene: Scene, look: FirstLook, strengths: Strengths, realizati
 def _ground(axes: Axes, section: Section, cell: float) -> None:
     surface = section.surface
     ground = outline(axes, surface, facecolor=GROUND, edgecolor="none")
+    if section.layers:
+        section.tint_layers(axes, ground)
+        beside = axes.legend(loc="lower left", bbox_to_anchor=(1.0, 0.0), title="layers", alignment="left")
+        axes.add_artist(beside).set_clip_on(False)
     x, y = (cell * np.arange(1 + whole_cells(length, cell)) for length in (surface.width, surface.top))
     if max(x.size, y.size) <= MOST_LINES:
         lines = [[(at, 0.0), (at, surface.top)] for at in x] + [[(0.0, at), (surface.width, at)] for at in y]
@@ -86,18 +100,21 @@ def _ground(axes: Axes, section: Section, cell: float) -> None:
 
 def _circles(axes: Axes, look: FirstLook) -> None:
     """Draw both circles; where they are the same, the dashes of one lie in the gaps of the other."""
-    _circle(axes, look.peak, BLUE, 0.0, "mean peak strength")
-    _circle(axes, look.residual, ORANGE, 5.0, "residual strength")
-    if axes.get_legend_handles_labels()[1]:
+    drawn = [
+        *_circle(axes, look.peak, BLUE, 0.0, "mean peak strength"),
+        *_circle(axes, look.residual, ORANGE, 5.0, "residual strength"),
+    ]
+    if drawn:
         heading = "critical circle and its factor of safety (Bishop)"
-        axes.legend(loc="upper right", title=heading, title_fontsize=9, alignment="left")
+        axes.legend(handles=drawn, loc="upper right", title=heading, title_fontsize=9, alignment="left")
 
 
-def _circle(axes: Axes, circle: SlipCircle | None, colour: str, begin: float, strength: str) -> None:
-    if circle is not None:
-        x = np.linspace(circle.entry, circle.exit, 200)
-        label = f"{circle.factor:.3g} with {strength}"
-        axes.plot(x, circle.elevation(x), color=colour, linestyle=(begin, (5, 5)), label=label)
+def _circle(axes: Axes, circle: SlipCircle | None, colour: str, begin: float, strength: str) -> list[Line2D]:
+    if circle is None:
+        return []
+    x = np.linspace(circle.entry, circle.exit, 200)
+    label = f"{circle.factor:.3g} with {strength}"
+    return axes.plot(x, circle.elevation(x), color=colour, linestyle=(begin, (5, 5)), label=label)
 
 
 def _places(section: Section) -> list[Label]:
@@ -118,6 +135,7 @@ def _field(axes: Axes, section: Section, strengths: Strengths, row: SoilProperty
     values = row.unit.shown_per_si * strengths[row.name]
     is_ground = grid.y[:, None] < section.surface.height_at(grid.x)
     box = (0.0, columns * grid.resolution, 0.0, rows * grid.resolution)
+    outline(axes, section.surface, facecolor=GROUND, edgecolor="none").set_zorder(-1)  # where it is not random
     image = axes.imshow(values, origin="lower", extent=box, interpolation="nearest", cmap="viridis")
     image.set_clim(np.nanmin(values[is_ground]), np.nanmax(values[is_ground]))
     image.set_clip_path(outline(axes, section.surface, facecolor="none", edgecolor="none"))

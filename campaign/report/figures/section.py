@@ -5,11 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from campaign.report.figures.style import BLACK, GREY, ORANGE
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.layers import interfaces_of, layer_names
 from campaign.scene.sections import Receptor
 from campaign.simulation.solver_model import Array
 from solver.grid import particle_spacing
@@ -23,6 +25,10 @@ SKY = 1.12
 
 ABOVE_DEPOSIT = 0.65
 """Of the height of the slope: where run-outs are written."""
+
+
+TINTS = ("#ece2cf", "#c9d3dc", "#d9c3ad", "#d3d8bd", "#d6cbdb", "#c4b8a6")
+"""Of layers, from the surface down."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +45,10 @@ class Section:
         Where the drawings end, in m.
     receptors : sequence of Receptor
         The places asked about.
+    layers : sequence of str
+        Names of the layers from the surface down, if there are several.
+    interfaces : sequence of Surface
+        The tops of all but the first.
     """
 
     surface: Surface
@@ -46,6 +56,8 @@ class Section:
     right: float
     top: float
     receptors: Sequence[Receptor] = ()
+    layers: Sequence[str] = ()
+    interfaces: Sequence[Surface] = ()
 
     @property
     def corners(self) -> list[tuple[float, float]]:
@@ -60,9 +72,24 @@ class Section:
     def frame(self, axes: Axes) -> None:
         """Set equal scales, draw the ground before the slide, and mark the receptors."""
         axes.plot(self.surface.x, self.surface.y, color=BLACK, linestyle=(0, (4, 2)), linewidth=0.9)
+        for top in self.interfaces:
+            axes.plot(top.x, self._in_ground(top), color=BLACK, linestyle=(0, (1, 2)), linewidth=0.8)
         axes.set(xlim=(0, self.right), ylim=(0, self.top), aspect="equal", ylabel="elevation (m)")
         axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
         self.mark_receptors(axes, 0.5 * self.top)
+
+    def tint_layers(self, axes: Axes, ground: Patch) -> None:
+        """Fill the ground with a tint for each layer, which legends name; nothing for one soil."""
+        for number, (name, top) in enumerate(zip(self.layers, (self.surface, *self.interfaces), strict=True)):
+            tint = TINTS[number % len(TINTS)]
+            filled = axes.fill_between(top.x, 0.0, top.y, color=tint, linewidth=0, label=name)
+            filled.set_clip_path(ground)
+
+    def _in_ground(self, top: Surface) -> Array:
+        """Return the elevations of an interface, NaN where it runs along the surface."""
+        is_at_surface = np.isclose(top.y, self.surface.height_at(top.x))
+        beside = np.pad(is_at_surface, 1, constant_values=True)
+        return np.where(is_at_surface & beside[:-2] & beside[2:], np.nan, top.y)
 
     def mark_receptors(self, axes: Axes, height: float) -> None:
         """Mark the places asked about, from zero to a height in the unit of the panel."""
@@ -83,6 +110,11 @@ class Section:
         axes.text(toe_x + 0.5 * runout, 1.02 * height, f"{runout:.2f} m", color=ORANGE, ha="center", va="bottom")
 
 
+def drawn_layers(scene: Scene) -> Sequence[str]:
+    """Return the names of the layers of a scene, none where the ground is one soil."""
+    return layer_names(scene) if scene.layer else ()
+
+
 def section_of(scene: Scene, runouts: Sequence[float] | Array) -> Section:
     """Return the section of a scene, wide enough for these run-outs (m) and for the places asked about.
 
@@ -95,4 +127,6 @@ def section_of(scene: Scene, runouts: Sequence[float] | Array) -> Section:
     farthest = max([reach, *(receptor.x[1] for receptor in scene.receptor)])
     side = particle_spacing(scene.numerics.cell, scene.numerics.particles_per_cell)
     right = min(surface.width, (1 + MARGIN) * farthest + 2 * side) if runout > 0.0 else surface.width
-    return Section(surface, float(side), right, SKY * surface.top, scene.receptor)
+    return Section(
+        surface, float(side), right, SKY * surface.top, scene.receptor, drawn_layers(scene), interfaces_of(scene)
+    )

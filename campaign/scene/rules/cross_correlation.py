@@ -60,10 +60,12 @@ def _attainable(rho: float | None, of: str, *covs: float | None) -> str | None:
     )
 
 
-@RULES.on("field.cross_correlation", "soil.law")
-def _correlation_of_two(correlation: float, law: str) -> str | None:
-    if law == FRICTIONLESS and correlation != 0.0:
-        return f'with the law "{law}" the cohesion is the only strength, with nothing to be correlated to; use 0'
+@RULES.on("field.cross_correlation", "laws")
+def _correlation_of_two(correlation: float, laws: list[str]) -> str | None:
+    if {*laws} == {FRICTIONLESS} and correlation != 0.0:
+        return (
+            f'with the law "{FRICTIONLESS}" the cohesion is the only strength, with nothing to be correlated to; use 0'
+        )
     return None
 
 

@@ -5,11 +5,15 @@ from typing import Any, NamedTuple
 
 Check = Callable[..., str | None]
 
+SOIL = "soil"
+"""The section whose rules hold for the soil of each layer, too."""
+
 
 class Rule(NamedTuple):
     """A check on the values of some keys; a complaint is reported at the key `place`.
 
-    A first key with a star, as "receptor.*.x", is checked for each table of the array, and is the place.
+    A first key with a star, as "receptor.*.x", is checked for each table of the array, and is the place; a star in the
+    others is the same table.
     """
 
     keys: tuple[str, ...]
@@ -44,6 +48,27 @@ class Rules(list[Rule]):
             for keys, place in _places(rule, values):
                 if all(key in values for key in keys) and (complaint := rule.check(*(values[key] for key in keys))):
                     yield place, complaint
+            for keys, number in _in_layers(rule, values):
+                if complaint := rule.check(*(values[key] for key in keys)):
+                    place, told = _in_layer(rule.place, number), complaint.replace(f"{SOIL}.", "layer.")
+                    yield place, told if place != rule.place else f"{told} (in layer {number + 1})"
+
+
+def _in_layer(key: str, number: int) -> str:
+    """Return the key of a layer, from 0, for one of the soil; any other as it is."""
+    section, _, name = key.partition(".")
+    return f"layer.{number}.{name}" if section == SOIL else key
+
+
+def _in_layers(rule: Rule, values: Mapping[str, Any]) -> Iterator[tuple[tuple[str, ...], int]]:
+    """Yield the keys of a rule of the soil, and the number, for each layer that has other values there."""
+    number = 0
+    while any(f"layer.{number}.{key}" in values for key in ("name", "law")):
+        keys = tuple(_in_layer(key, number) for key in rule.keys)
+        has_all = all(key in values for key in keys)
+        if has_all and any(values[key] != values.get(of_soil) for key, of_soil in zip(keys, rule.keys, strict=True)):
+            yield keys, number
+        number += 1
 
 
 def _places(rule: Rule, values: Mapping[str, Any]) -> Iterator[tuple[tuple[str, ...], str]]:
@@ -55,4 +80,5 @@ def _places(rule: Rule, values: Mapping[str, Any]) -> Iterator[tuple[tuple[str, 
         return
     for name in values:
         if name.startswith(before) and name.endswith(after):
-            yield (name, *others), name
+            number = name[len(before) : -len(after)]
+            yield (name, *(key.replace("*", number) for key in others)), name

@@ -13,22 +13,22 @@ from campaign.scene import Scene, load_scene, scene_of
 from campaign.scene.constraints import tolerance
 from campaign.scene.document import read_document
 from campaign.scene.first_look import FirstLook, look_at
-from campaign.scene.limit_equilibrium import critical_circle, factor_on
+from campaign.scene.limit_equilibrium import Strata, critical_circle, factor_on
 from campaign.scene.outlook import outlook
 from campaign.simulation.field_size import field_size
 from solver.surface import slope_surface
 
 
 def test_a_given_circle_has_the_factor_it_was_found_with():
-    surface = slope_surface(15.0, np.pi / 4, 20.0, 40.0, 4.0)
-    found = critical_circle(surface, 20e3, np.radians(10.0), 20e3)
-    assert factor_on(found, surface, 20e3, np.radians(10.0), 20e3) == pytest.approx(found.factor, rel=1e-9)
+    surface, strata = slope_surface(15.0, np.pi / 4, 20.0, 40.0, 4.0), Strata((20e3,), (np.radians(10.0),), (20e3,))
+    found = critical_circle(surface, strata)
+    assert factor_on(found, surface, strata) == pytest.approx(found.factor, rel=1e-9)
 
 
 def test_a_circle_knows_how_deep_and_how_low_it_goes():
     """Undrained clay on deep ground slides on a base circle that touches the fixed base, 20 m below the crest."""
     surface = slope_surface(10.0, np.arctan(0.5), 30.0, 30.0, 10.0)
-    found = critical_circle(surface, 50e3, 0.0, 20e3)
+    found = critical_circle(surface, Strata((50e3,), (0.0,), (20e3,)))
     assert found.lowest == pytest.approx(0.0, abs=0.02)
     assert 10.0 < found.depth(surface) < 20.0
     assert found.elevation(np.array([found.entry])) == pytest.approx(surface.height_at(np.array([found.entry])))

@@ -1,13 +1,21 @@
 """Bishop's method gives the factors of safety of published slopes."""
 
+import math
+
 import numpy as np
 import pytest
 
-from campaign.scene.limit_equilibrium import critical_circle
+from campaign.scene.layers import lower_of
+from campaign.scene.limit_equilibrium import Strata, critical_circle, factor_on
 from solver.surface import Surface, slope_surface
 
 TWO_TO_ONE = np.arctan(0.5)
 UNIT_WEIGHT = 20e3  # N/m3
+
+
+def one_soil(cohesion, friction_angle):
+    """Return ground of one soil, from Pa and degrees."""
+    return Strata((cohesion,), (np.radians(friction_angle),), (UNIT_WEIGHT,))
 
 
 @pytest.mark.parametrize(
@@ -22,24 +30,78 @@ UNIT_WEIGHT = 20e3  # N/m3
 )
 def test_published_slopes(height, angle, foundation, cohesion, friction, factor):
     surface = slope_surface(height, angle, crest=3.0 * height, plain=3.0 * height, foundation=foundation)
-    found = critical_circle(surface, cohesion, np.radians(friction), UNIT_WEIGHT)
+    found = critical_circle(surface, one_soil(cohesion, friction))
     assert found.factor == pytest.approx(factor, rel=0.01)
 
 
 def test_a_vertical_cut_without_friction_has_fellenius_stability_number():
     """N = gamma H / c = 3.83 for circles (Fellenius 1927)."""
     surface = Surface(np.array([0.0, 30.0, 30.0, 60.0]), np.array([13.0, 13.0, 3.0, 3.0]), 30.0)
-    assert critical_circle(surface, 20e3, 0.0, UNIT_WEIGHT).factor * 10.0 == pytest.approx(3.83, rel=0.02)
+    assert critical_circle(surface, one_soil(20e3, 0.0)).factor * 10.0 == pytest.approx(3.83, rel=0.02)
 
 
 def test_the_critical_circle_of_a_steep_slope_passes_through_its_toe():
-    found = critical_circle(slope_surface(15.0, np.pi / 4, 20.0, 40.0, 4.0), 20e3, np.radians(10.0), UNIT_WEIGHT)
+    found = critical_circle(slope_surface(15.0, np.pi / 4, 20.0, 40.0, 4.0), one_soil(20e3, 10.0))
     assert found.exit == pytest.approx(35.0, abs=0.1)
     assert found.y - found.radius > 0.0
 
 
 def test_a_factor_of_safety_keeps_when_lengths_and_cohesion_grow_alike():
-    small = critical_circle(slope_surface(1.0, np.pi / 4, 2.0, 2.0, 0.5), 1e3, np.radians(15.0), UNIT_WEIGHT)
-    large = critical_circle(slope_surface(10.0, np.pi / 4, 20.0, 20.0, 5.0), 10e3, np.radians(15.0), UNIT_WEIGHT)
+    small = critical_circle(slope_surface(1.0, np.pi / 4, 2.0, 2.0, 0.5), one_soil(1e3, 15.0))
+    large = critical_circle(slope_surface(10.0, np.pi / 4, 20.0, 20.0, 5.0), one_soil(10e3, 15.0))
     assert small.factor == pytest.approx(large.factor, rel=1e-9)
     assert 10.0 * small.radius == pytest.approx(large.radius, rel=1e-9)
+
+
+CUT = slope_surface(10.0, np.radians(40.0), 25.0, 30.0, 6.0)
+DRAWN = (
+    Surface(np.array([0.0, 70.0]), np.array([9.0, 6.0])),
+    Surface(np.array([0.0, 30.0, 70.0]), np.array([3.0, 5.0, 2.0])),
+)
+TOPS = tuple(lower_of(CUT, top) for top in DRAWN)
+CLAY_BETWEEN = Strata((6e3, 35e3, 30e3), (np.radians(33.0), 0.0, np.radians(30.0)), (19e3, 17e3, 21e3), TOPS)
+
+
+def bishop(circle, surface, strata, slices=2000):
+    """Evaluate Bishop's formula slice by slice, each of the layers by itself."""
+    edges = np.linspace(circle.entry, circle.exit, slices + 1)
+    width, centres, factor = edges[1] - edges[0], 0.5 * (edges[1:] + edges[:-1]), 1.0
+    heights = np.transpose([line.height_at(centres) for line in (surface, *strata.interfaces)]).tolist()
+    for _ in range(50):
+        driving = resisting = 0.0
+        for x, at in zip(centres.tolist(), heights, strict=True):
+            base = circle.y - (circle.radius**2 - (x - circle.x) ** 2) ** 0.5
+            weight, layer = 0.0, 0
+            for number, top in enumerate(at):
+                bottom = at[number + 1] if number + 1 < len(at) else base
+                weight += strata.unit_weight[number] * width * max(top - max(bottom, base), 0.0)
+                layer = number if base < top else layer
+            sine = (circle.x - x) / circle.radius
+            tangent = math.tan(strata.friction_angle[layer])
+            share = (1.0 - sine**2) ** 0.5 + sine * tangent / factor
+            driving += weight * sine
+            resisting += (strata.cohesion[layer] * width + weight * tangent) / share
+        if abs(resisting / driving - factor) < 1e-9:
+            return factor
+        factor = resisting / driving
+    raise AssertionError("it does not converge")
+
+
+def test_a_layered_cut_has_the_factor_of_many_slices():
+    """On the same circle, whose 30 slices have the mean strength over their bases."""
+    found = critical_circle(CUT, CLAY_BETWEEN)
+    assert found.factor == pytest.approx(bishop(found, CUT, CLAY_BETWEEN), rel=5e-3)
+    assert found.factor == pytest.approx(factor_on(found, CUT, CLAY_BETWEEN), rel=1e-9)
+
+
+def test_one_soil_in_two_layers_is_one_soil():
+    twice = Strata((20e3,) * 2, (np.radians(10.0),) * 2, (UNIT_WEIGHT,) * 2, TOPS[:1])
+    one, two = critical_circle(CUT, one_soil(20e3, 10.0)), critical_circle(CUT, twice)
+    assert two.factor == pytest.approx(one.factor, rel=1e-12)
+    assert (two.entry, two.exit) == pytest.approx((one.entry, one.exit))
+
+
+def test_a_circle_stays_above_what_is_strong():
+    found = critical_circle(CUT, CLAY_BETWEEN._replace(cohesion=(6e3, 35e3, 3e6)))
+    x = np.linspace(found.entry, found.exit, 50)
+    assert np.min(found.elevation(x) - TOPS[1].height_at(x)) > -0.1

@@ -18,12 +18,25 @@ def with_receptors(directory: Path, text: str) -> Path:
     return path
 
 
-def test_receptors_are_set_all_at_once(tmp_path: Path) -> None:
-    scene = with_receptors(tmp_path, ROAD)
-    with pytest.raises(SceneError, match=r"receptor is a list; set all of it, for instance --set 'receptor=\[\{name"):
-        load_scene(scene, ['receptor.0.x="43 m"'])
+def test_receptors_are_set_one_by_one_or_all_at_once(tmp_path: Path) -> None:
+    """Numbers count from 1, as messages do."""
+    scene = with_receptors(tmp_path, ROAD + HOUSE)
+    road, house = load_scene(scene, ["receptor.1.x=43 m"]).receptor
+    assert (road.x, house.x) == ((43.0, 43.0), (30.0, 33.5))
     (road,) = load_scene(scene, ['receptor=[{name="road", x="43 m"}]']).receptor
     assert road.x == (43.0, 43.0)
+    with pytest.raises(SceneError, match=r"receptor.3.x: receptor is a list of 2; set one .*, for instance --set 'rec"):
+        load_scene(scene, ["receptor.3.x=43 m"])
+    assert complaint("receptor.1.x=43 m").startswith("--set receptor.1.x: the scene has no [[receptor]]; set all of it")
+
+
+def test_an_override_of_one_receptor_is_the_place_of_its_mistake(tmp_path: Path) -> None:
+    scene = with_receptors(tmp_path, ROAD + HOUSE)
+    assert complaint("receptor.2.x=99 m", source=scene).startswith('--set receptor.2.x is "99 m", but it must lie')
+    line = line_of("[[receptor]]", scene)
+    assert f"receptor.x (slope.toml, line {line + 2}, receptor 1)" in complaint(
+        "receptor.2.x=31 m", "geometry.slope.plain=5 m", source=scene
+    )
 
 
 def test_a_place_is_a_range_without_length(tmp_path: Path) -> None:
@@ -42,9 +55,9 @@ def test_receptors_decide_what_is_measured_and_scenes_without_are_what_they_were
 def test_differing_receptors_are_told_in_their_units() -> None:
     here, there = (scene_of(EXAMPLE.text + text).identity() for text in (ROAD, ROAD.replace("42", "43.5")))
     assert differences(here, there) == [
-        'receptor.0.x is ["42 m", "42 m"] here but ["43.5 m", "43.5 m"] in the results directory'
+        'receptor.1.x is ["42 m", "42 m"] here but ["43.5 m", "43.5 m"] in the results directory'
     ]
-    assert differences(scene_of(EXAMPLE.text).identity(), here)[0].startswith("receptor.0.name is absent here but road")
+    assert differences(scene_of(EXAMPLE.text).identity(), here)[0].startswith("receptor.1.name is absent here but road")
 
 
 @pytest.mark.parametrize(

@@ -53,7 +53,10 @@ def test_a_syntax_error_names_the_line_and_the_missing_quotes(tmp_path: Path) ->
             ': there is no key "cohesionn"; did you mean "cohesion"?',
         ),
         ("soil.cell=1 m", 'it belongs to another section, as "numerics.cell".'),
-        ("mesh.size=1 m", "the keys here are title, geometry, soil, field, numerics, slide, receptor, campaign."),
+        (
+            "mesh.size=1 m",
+            "the keys here are title, geometry, soil, layer, field, numerics, slide, receptor, campaign.",
+        ),
         ("title.a=1", "--set title.a: title is a value, not a section"),
         ("nonsense", "--set nonsense has no key and value; write KEY=VALUE"),
         ("=1", "--set =1 has no key and value; write KEY=VALUE"),

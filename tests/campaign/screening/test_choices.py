@@ -96,7 +96,7 @@ def cohesion(scene, x, above_base):
     surface = surface_of(scene.geometry)
     sampler = strength_sampler(scene, surface.width, surface.top)
     drawn = sampler.draw(scene.campaign.seed, 0).at(x + surface.toe_x, above_base)["cohesion"]
-    law = sampler.marginals["cohesion"]
+    law = sampler.layers[0].marginals["cohesion"]
     return (np.log(drawn) - law.log_mean) / law.sigma
 
 
