@@ -14,7 +14,7 @@ from campaign.scene.cost import (
     with_more_of_an_input,
 )
 from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, TYPICAL_SLIDE, FirstLook
-from campaign.scene.layer_table import HEADINGS, layer_rows
+from campaign.scene.layer_table import HEADINGS, layer_rows, told_by_layer
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.outlook import may_slide, outlook
 from campaign.scene.sections import Softening

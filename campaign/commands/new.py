@@ -45,7 +45,15 @@ OF_ANY_SLOPE = {
 What front suits a slope of 15 m in the paper is a fraction of a particle in a larger one.
 """
 
-RECEPTORS = """
+LAYERS_AND_RECEPTORS = """
+
+# Layers below [soil], from above to below; whatever one leaves out is as in [soil].
+#
+#     [[layer]]
+#     name = "soft clay"
+#     top = "6 m"               # elevation above the base, or points from wall to wall as in surface; or depth = "3 m"
+#     unit_weight = "17 kN/m^3"
+#     cohesion = {mean = "15 kPa"}
 
 # Places asked about, such as a road or the walls of a house: whether the slide reaches them, and what arrives.
 #
@@ -95,4 +103,4 @@ def new_scene(file: Path) -> str:
     for of_template, text in OF_ANY_SLOPE.items():
         body = re.sub(f"(?m)^{of_template}$", text, body)
     title = json.dumps(file.stem, ensure_ascii=False)
-    return HEADER.format(name=file.stem, file=file.name, title=title) + body.rstrip("\n") + RECEPTORS
+    return HEADER.format(name=file.stem, file=file.name, title=title) + body.rstrip("\n") + LAYERS_AND_RECEPTORS

@@ -1,9 +1,15 @@
 """Layered ground: at rest, as one soil in two layers, and with a weak layer that draws the failure surface into it."""
 
+import h5py
 import numpy as np
 import pytest
-from small_campaign import small_scene
+from small_campaign import run, small_scene
 
+from campaign import open_results
+from campaign.report.figures.section import section_of
+from campaign.report.figures.strengths import strengths
+from campaign.report.snapshots import slide_of
+from campaign.results.replay import replay
 from campaign.scene import scene_of
 from campaign.scene.document import read_document
 from campaign.simulation.ground import prepare
@@ -58,3 +64,41 @@ def test_a_weak_layer_draws_the_failure_surface_into_it():
         slip = seen[-1] * (ground.lattice.x < ground.toe_x)
         shares.append(float(slip[ground.lattice.y < 4.0].sum() / slip.sum()))
     assert shares[0] < 0.2 < 0.4 < shares[1]
+
+
+@pytest.fixture(scope="module")
+def layered_campaign(tmp_path_factory):
+    """Two realizations of sand over undrained clay, in cells of 2 m."""
+    directory = tmp_path_factory.mktemp("layered")
+    clay = 'layer=[{name="clay", top="8 m", law="tresca", cohesion={mean="25 kPa"}, field="own"}]'
+    return directory, *run(directory, small_scene("campaign.realizations=2", "field.resolution=1 m", clay))
+
+
+def test_the_dataset_names_the_layers_and_tells_where_they_are(layered_campaign):
+    directory, ground, _ = layered_campaign
+    data = open_results(directory)
+    assert data["layer"].values.tolist() == ["soil", "clay"]
+    np.testing.assert_array_equal(data["particle_layer"] == 1, data["particle_y"] < 8.0)
+    is_clay = data["particle_layer"].values == 1
+    released = ground.released(0)
+    assert (released.friction_angle[is_clay] == 0.0).all()
+    assert (released.friction_angle[~is_clay] > 0.0).all()
+
+
+def test_a_replay_is_the_same_and_shows_the_layers(layered_campaign, capsys):
+    directory, ground, _ = layered_campaign
+    path = replay(directory, 1)
+    assert "is the recorded one, bit for bit" in capsys.readouterr().out
+    with h5py.File(path) as file:
+        np.testing.assert_array_equal(file["VTKHDF/PointData/layer"], ground.lattice.material)
+
+
+def test_the_soil_of_a_layered_realization_is_drawn_where_it_is_random(layered_campaign):
+    """And correlated within layers: cohesion and friction angle of the sand alone, by -0.5 in the long run."""
+    _, ground, records = layered_campaign
+    slide = slide_of(ground, records[1], ())
+    drawn = strengths(section_of(ground.scene, [5.0]), ground, slide)
+    assert "Grey: not random in that layer" in drawn.caption
+    is_sand = ground.lattice.material == 0
+    pairs = [slide.soil[name][is_sand] for name in ("cohesion", "friction_angle")]
+    assert f"are correlated by {np.corrcoef(*pairs)[0, 1]:.2f} within the layers" in drawn.caption

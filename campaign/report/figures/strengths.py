@@ -23,7 +23,7 @@ def strengths(section: Section, ground: Ground, slide: ReplayedSlide) -> Illustr
         low, high = (float(np.percentile(values, share)) for share in (0.5, 99.5))
         scale = Scale("cividis", low, max(high, low + 1e-9))
         kept, still = shown[is_random], shown & ~is_random
-        draw_still(panel, lattice.x[still], lattice.y[still], section.side)
+        draw_still(panel, (lattice.x, lattice.y), still, section)
         x, y = lattice.x[is_random][kept], lattice.y[is_random][kept]
         draw_lattice(panel, x, y, values[kept], scale, section.side)
         section.frame(panel)

@@ -3,6 +3,7 @@
 import matplotlib.image
 import numpy as np
 import pytest
+from matplotlib.legend import Legend
 
 from campaign import cli
 from campaign.report.figures.scene_section import scene_section
@@ -81,3 +82,13 @@ def test_the_places_asked_about_are_marked_in_every_panel():
     for panel in fields[:2]:
         band = panel.collections[0].get_paths()[0].get_extents()
         assert (band.x0, band.x1) == (44.0, 48.0)
+
+
+def test_layers_have_their_tints_and_names():
+    layers = 'layer=[{name="clay", top="8 m", law="tresca"}, {name="rock", depth="15 m"}]'
+    section, cohesion, friction_angle, *_ = panels(layers)
+    (legend,) = [each for each in section.artists if isinstance(each, Legend)]
+    assert [text.get_text() for text in legend.texts] == ["soil", "clay", "rock"]
+    assert len({patch.get_facecolor() for patch in legend.get_patches()}) == 3
+    assert np.isfinite(cohesion.images[0].get_array()).all()
+    assert 0.0 < np.isnan(np.ma.filled(friction_angle.images[0].get_array(), np.nan)).mean() < 1.0

@@ -136,3 +136,13 @@ def test_what_cannot_be_run_is_refused_alike(command, override, capsys, monkeypa
     printed = capsys.readouterr()
     assert printed.out == ""
     assert "geometry" in printed.err or override.partition("=")[0] in printed.err
+
+
+def test_layers_are_told_in_a_table(capsys):
+    assert cli.main(["validate", "layered", "--quick"]) == 0
+    printed = capsys.readouterr().out
+    (sand,) = [line.split() for line in printed.split("\n") if line.strip().startswith("soil ")]
+    assert sand[1:6] == ["0", "to", "7.9", "m", "19"]
+    assert "44 kPa (25 %)" in printed
+    assert "Soil and soft clay: exponential: 95 %" in printed
+    assert "till: none: strength stays at its peak." in printed

@@ -108,3 +108,14 @@ def test_realizations_have_the_same_fields_but_where_a_choice_says_otherwise():
     for choice in choices_of(scene):
         there = cohesion(load_scene(scene, choice.changes), x, y)
         assert np.allclose(there, own, atol=1e-5) != choice.redraws, choice.name
+
+
+def test_choices_of_layered_ground_change_every_layer_that_has_its_own():
+    scene = load_scene("layered")
+    found = {choice.name: choice for choice in choices_of(scene)}
+    assert load_scene(scene, found["layers"].changes).layer == ()
+    assert {soil.softening.law for soil in load_scene(scene, found["softening"].changes).soils} == {"none"}
+    certain = load_scene(scene, found["random peak cohesion"].changes)
+    assert {soil.cohesion.cov for soil in certain.soils} == {NOT_RANDOM}
+    softer = load_scene(scene, found["modulus 40 MPa"].changes)
+    assert [soil.young_modulus for soil in softer.soils] == [10e6, 3.75e6, 20e6]
