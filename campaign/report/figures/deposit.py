@@ -53,7 +53,8 @@ def draw_deposit(axes: Axes, deposit: Deposit, section: Section, has_slides: boo
     x, before, median = deposit.x, deposit.before, deposit.median
     lowest = np.minimum(before, median)
     if section.layers:
-        still = [(0.0, 0.0), *zip(x.tolist(), lowest.tolist(), strict=True), (float(x[-1]), 0.0)]
+        shown = np.minimum(x, section.right)
+        still = [(0.0, 0.0), *zip(shown.tolist(), lowest.tolist(), strict=True), (float(shown[-1]), 0.0)]
         section.tint_layers(axes, axes.add_patch(Polygon(still, facecolor="none", edgecolor="none")))
     else:
         axes.fill_between(x, 0.0, lowest, color=STILL, linewidth=0)

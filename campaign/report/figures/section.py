@@ -27,7 +27,7 @@ ABOVE_DEPOSIT = 0.65
 """Of the height of the slope: where run-outs are written."""
 
 
-TINTS = ("#ece2cf", "#c9d3dc", "#d9c3ad", "#d3d8bd", "#d6cbdb", "#c4b8a6")
+TINTS = ("#ece2cf", "#cfc6d3", "#d9c3ad", "#d3d8bd", "#dcd0d0", "#c4b8a6")
 """Of layers, from the surface down."""
 
 
