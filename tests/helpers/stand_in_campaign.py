@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from contextlib import suppress
 from dataclasses import fields
 from functools import cache
 from pathlib import Path
@@ -22,6 +23,12 @@ from campaign.storage.provenance import source_hashes
 
 MPIRUN = Path(sys.prefix) / "bin" / "mpirun"
 NEEDS_MPIRUN = pytest.mark.skipif(not MPIRUN.exists(), reason="needs the mpich extra")
+COUNT = 24
+"""Realizations of a campaign of which nothing else is asked."""
+
+PATIENCE = 120.0
+"""Seconds after which what is awaited does not come, however busy the machine is."""
+
 STAND_IN = Path(__file__).parent / "stand_in.py"
 
 
@@ -55,7 +62,7 @@ def kept_file():
     return path
 
 
-def start(directory, realizations=40, ranks=2, overrides=(), **faults):
+def start(directory, realizations=COUNT, ranks=2, overrides=(), **faults):
     settings = {"kept": kept_file()} | faults
     environment = os.environ | {f"STAND_IN_{name.upper()}": str(value) for name, value in settings.items()}
     command = [MPIRUN, "-n", str(ranks), sys.executable, STAND_IN, directory, str(realizations), *overrides]
@@ -64,13 +71,13 @@ def start(directory, realizations=40, ranks=2, overrides=(), **faults):
     )
 
 
-def campaign(directory, realizations=40, ranks=2, overrides=(), **faults):
+def campaign(directory, realizations=COUNT, ranks=2, overrides=(), **faults):
     process = start(directory, realizations, ranks, overrides, **faults)
-    output, _ = process.communicate(timeout=60)
+    output, _ = process.communicate(timeout=PATIENCE)
     return process.returncode, output
 
 
-def dataset_of(directory, realizations=40, ranks=1, overrides=(), **faults):
+def dataset_of(directory, realizations=COUNT, ranks=1, overrides=(), **faults):
     """Return the dataset of a campaign that must come to its end."""
     code, output = campaign(directory, realizations, ranks, overrides, **faults)
     assert code == 0, output
@@ -91,14 +98,23 @@ def assert_same(one, other):
 
 
 def wait_for(condition, otherwise):
-    deadline = time.monotonic() + 30
+    deadline = time.monotonic() + PATIENCE
     while not condition():
         assert time.monotonic() < deadline, otherwise
         time.sleep(0.02)
 
 
+def records_in(directory):
+    return len(list(directory.glob("records/realization-*.h5")))
+
+
 def wait_for_records(directory, count):
-    wait_for(lambda: len(list(directory.glob("records/realization-*.h5"))) >= count, "no records appear")
+    wait_for(lambda: records_in(directory) >= count, "no records appear")
+
+
+def wait_for_more_records(directory, count):
+    """For a campaign that has just been started again."""
+    wait_for_records(directory, records_in(directory) + count)
 
 
 def wait_for_the_end(directory):
@@ -107,5 +123,11 @@ def wait_for_the_end(directory):
 
 
 def wait_for_attempts(directory):
-    attempts = directory / "attempts"
-    wait_for(lambda: any(path.read_text() for path in attempts.glob("rank-*")), "no realization is begun")
+    """Not those of an earlier start."""
+    now = time.time()
+
+    def is_begun(attempt):
+        with suppress(FileNotFoundError):
+            return attempt.stat().st_mtime > now and attempt.read_text()
+
+    wait_for(lambda: any(map(is_begun, (directory / "attempts").glob("rank-*"))), "no realization is begun")

@@ -6,7 +6,7 @@ import time
 import numpy as np
 import pytest
 import xarray as xr
-from stand_in_campaign import NEEDS_MPIRUN, campaign, start
+from stand_in_campaign import NEEDS_MPIRUN, PATIENCE, campaign, start
 
 pytestmark = NEEDS_MPIRUN
 
@@ -38,11 +38,11 @@ def test_a_study_that_is_stopped_goes_on_where_it_was(undisturbed, tmp_path):
         assert process.poll() is None
         time.sleep(0.05)
     process.send_signal(signal.SIGUSR1)
-    output, _ = process.communicate(timeout=60)
+    output, _ = process.communicate(timeout=PATIENCE)
     assert process.returncode == 75, output
     assert "Give the same command again to continue." in output
     kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "variants").glob("*/records/*.h5")}
-    code, output = campaign(tmp_path, 5, 2, tradeoff=1)
+    code, output = campaign(tmp_path, 5, 1, tradeoff=1)
     assert code == 0, output
     assert_same(runouts(tmp_path), undisturbed)
     assert all(path.stat().st_mtime_ns == when for path, when in kept.items() if path.exists())
