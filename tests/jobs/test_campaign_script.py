@@ -64,8 +64,8 @@ def test_what_the_campaign_wrote_down_counts(job, told, written, code, requeues)
     assert ("scontrol requeue 7" in output) == requeues
 
 
-def test_a_realization_that_takes_down_a_rank_brings_the_job_back(job, tmp_path):
-    """It does so twice at most. srun kills all ranks when one of them ends them, and says 137."""
+def test_a_realization_that_takes_down_a_rank_is_followed_by_another_job(job, tmp_path):
+    """It is so twice at most. srun kills all ranks when one of them ends them, and says 137."""
     attempts = Attempts(tmp_path)
     attempts.create()
     attempts.note(1, 3, "no answer within 5 s")
@@ -74,7 +74,8 @@ def test_a_realization_that_takes_down_a_rank_brings_the_job_back(job, tmp_path)
     process = job(137, 75, state=state)
     output, _ = process.communicate(timeout=20)
     assert process.returncode == 75
-    assert "scontrol requeue 7" in output
+    assert "scontrol requeue" not in output
+    assert "sbatch --dependency=afterany:7" in output
 
 
 def test_a_launcher_that_dies_of_the_signal_is_named_and_the_job_comes_back(job):
