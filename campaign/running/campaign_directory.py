@@ -130,8 +130,7 @@ class CampaignDirectory:
         tally = own.tally
         code, verdict = _end(own, self.scene, beyond.stopped)
         say(f"\n{self.scene.title}: {verdict}")
-        if lost := self.obstacle():
-            say(f"{lost}. Its records are kept: give the same command again where it is.")
+        if self._is_lost():
             return ExitCode.RESUMABLE
         try:
             if tally.prefix > 0:
@@ -141,7 +140,11 @@ class CampaignDirectory:
             ):  # whoever was asked to stop has no time for it, and the next start does it
                 self.level.store.pack()
             manifest.end(self.path, code, verdict)
-        except OSError as error:
+        except (OSError, KeyError) as error:  # KeyError: of a record that was there
+            if self._is_lost():
+                return ExitCode.RESUMABLE
+            if isinstance(error, KeyError):
+                raise
             say(f"The results cannot be written ({error}). All records are kept: make room and repeat the command.")
             return ExitCode.RESUMABLE
         if tally.prefix > 0:
@@ -152,6 +155,12 @@ class CampaignDirectory:
         if code is ExitCode.RESUMABLE:
             say("Give the same command again to continue.")
         return code
+
+    def _is_lost(self) -> bool:
+        """Whether nothing more may be written here, which is said."""
+        if lost := self.obstacle():
+            say(f"{lost}. Its records are kept: give the same command again where it is.")
+        return bool(lost)
 
     def _write_results(self, ground: PreparedGround, own: OwnRuns, verdict: str, beyond: BeyondSampling) -> str:
         """Write the dataset and return what it says, in that order: a terminal may fail, the results must be safe.
