@@ -1,10 +1,10 @@
 """What a reader of a comparison has to know: when pairs have less in common than they seem to, and what is a bound."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from campaign.comparison.scenarios import Comparison
+from campaign.comparison.scenarios import Change, Comparison
 from campaign.record import FAILED, Status
 from campaign.results.results import Results
 from campaign.simulation.field_size import field_size
@@ -42,13 +42,13 @@ def _left_out(given: Comparison) -> Iterator[str]:
 def _of_pairs(given: Comparison, other: int) -> Iterator[str]:
     (first, here), name = (given.names[0], given.scenarios[0]), given.names[other]
     there = given.scenarios[other]
-    keys = [change.key for change in given.changes(other)]
+    changes = given.changes(other)
     if here.scene.campaign.seed != there.scene.campaign.seed:
         yield (
             f"{name} has another seed than {first}, so their realizations have nothing in common: the differences "
             "hold, but are known no better than from independent campaigns. With the same seed they would be."
         )
-    elif reason := _other_field(here, there, keys):
+    elif reason := _other_field(here, there, changes):
         yield (
             f"The random fields of {name} are not those of {first} ({reason}), so that pairs have less in common, or "
             "nothing: the standard errors show what pairing is worth."
@@ -62,7 +62,7 @@ def _of_pairs(given: Comparison, other: int) -> Iterator[str]:
             f"{name} was computed by another version of the solver than {first}, so the differences hold what that "
             "changed as well."
         )
-    if counted := [key for key in keys if key in CRITERIA]:
+    if counted := [each.key for each in changes if each.key in CRITERIA]:
         differ = "differs" if len(counted) == 1 else "differ"
         yield (
             f"{', '.join(counted)} {differ} between {name} and {first}: what counts as a slide, or as its front, is "
@@ -70,14 +70,20 @@ def _of_pairs(given: Comparison, other: int) -> Iterator[str]:
         )
 
 
-def _other_field(here: Results, there: Results, keys: list[str]) -> str:
+def _other_field(here: Results, there: Results, changes: Sequence[Change]) -> str:
     """Return why two scenes of the same seed draw different Gaussian fields, "" if they draw the same."""
-    if changed := [key for key in keys if key.startswith(FIELD)]:
+    if changed := [each.key for each in changes if each.key.startswith(FIELD) or _is_own_field(each)]:
         return ", ".join(changed)
     one, two = field_size(here.scene), field_size(there.scene)
     if (one.shape, one.resolution) != (two.shape, two.resolution):
         return "the ground is of another width or height"
     return ""
+
+
+def _is_own_field(change: Change) -> bool:
+    """Whether a layer has a field of its own in one of two scenes."""
+    is_of_layer = change.key.startswith("layer.") and change.key.endswith(".field")
+    return is_of_layer and "own" in (change.first, change.other)
 
 
 def _of_runouts(given: Comparison, scenario: int) -> Iterator[str]:

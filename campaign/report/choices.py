@@ -2,7 +2,7 @@
 
 from campaign.fields.properties import BY_NAME
 from campaign.scene import Scene
-from campaign.scene.layer_table import layer_rows, told_by_layer
+from campaign.scene.layer_table import LASTING, NONE, LayerRow, layer_rows, told_by_layer
 from campaign.scene.sections import Numerics, RandomField
 from campaign.scene.softening import known_rate, softening_rate, softening_words
 from campaign.terminal import listing
@@ -26,11 +26,7 @@ METHODS = {
 
 def modelling_choices(scene: Scene) -> dict[str, str]:
     """Return the choices that the answer rests on and that no interval contains, by name."""
-    layers = {
-        f"Layer: {row.name}": f"{row.thickness} thick, {row.unit_weight}; cohesion {row.cohesion}, friction "
-        f"angle {row.friction_angle}, residual: {row.residual}"
-        for row in layer_rows(scene)
-    }
+    layers = {f"Layer: {row.name}": _layer(row) for row in layer_rows(scene)}
     return layers | {
         "Soil law": told_by_layer(scene, lambda layer: layer.soil.law),
         "How it begins": _beginning(scene.numerics),
@@ -40,6 +36,14 @@ def modelling_choices(scene: Scene) -> dict[str, str]:
         "Correlation": _correlation(scene),
         "Cross-correlation": _cross_correlation(scene.field),
     }
+
+
+def _layer(row: LayerRow) -> str:
+    undrained = f"undrained strength {row.cohesion}"
+    drained = f"cohesion {row.cohesion}, friction angle {row.friction_angle}"
+    peak = undrained if row.friction_angle == NONE else drained
+    residual = row.residual if row.residual == LASTING else f"residual {row.residual}"
+    return f"{row.thickness} thick, {row.unit_weight}; {peak}; {residual}"
 
 
 def _beginning(numerics: Numerics) -> str:

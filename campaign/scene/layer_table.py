@@ -32,6 +32,8 @@ HEADINGS = LayerRow("layer", "thickness", "unit weight", "cohesion", "friction a
 
 NONE = "none"
 
+LASTING = "does not soften"
+
 
 def layer_rows(scene: Scene) -> list[LayerRow]:
     """Return a row for each layer, from the surface down; none where the ground is one soil."""
@@ -74,7 +76,7 @@ def _range(thickness: NDArray[np.float64]) -> str:
 
 def _residual(scene: Scene) -> str:
     if scene.soil.softening.law == "none":
-        return "does not soften"
+        return LASTING
     values = (_value(scene, name) for name in ("cohesion_residual", "friction_angle_residual"))
     return ", ".join(value for value in values if value != NONE)
 

@@ -101,15 +101,21 @@ def _ticks(axes: Axes, places: Sample) -> None:
 def _caption(results: Results) -> str:
     slides = results.outcomes.slides
     if not slides:
-        return "The slope, which did not slide in any realization, with its critical circle and the places asked about."
+        text = "The slope, which did not slide in any realization, with its critical circle and the places asked about."
+        return f"{text}{_layers(results)}"
     cut_short = results.outcomes.cut_short
     ended = f", {cut_short:,} of them cut short before they did" if cut_short else ""
     return (
         f"Upper part: the probability, with its {100 * results.confidence:g} % interval by sampling, that a slide gets "
         f"as far from the toe; every tick is where one of {counted(slides, 'slide')} stopped{ended}. Lower part: "
         f"the ground before (dashed) and after the slides. Bars in the ground: the intervals of where half and 95 % "
-        f"stop{_mesh(results)}."
+        f"stop{_mesh(results)}.{_layers(results)}"
     )
+
+
+def _layers(results: Results) -> str:
+    """Say what dotted lines are."""
+    return " Dotted, here and in what follows: tops of layers." if results.scene.layer else ""
 
 
 def _mesh(results: Results) -> str:

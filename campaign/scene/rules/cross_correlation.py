@@ -20,7 +20,8 @@ def _add_rules_of(one: str, other: str) -> None:
     """Add the rules for the key of one pair."""
     covs = BY_NAME[one].cov_key, BY_NAME[other].cov_key
 
-    @RULES.on(KEYS[one, other], KEYS[other, one], *covs)
+    # Layers in which a property is not random have nothing to correlate there.
+    @RULES.on(KEYS[one, other], KEYS[other, one], *covs, in_layers=False)
     def _once_and_random(rho: float | None, again: float | None, *covs: float | None) -> str | None:
         if rho is None:
             return None
@@ -37,7 +38,7 @@ def _add_rules_of(one: str, other: str) -> None:
 
     RULES.on(KEYS[one, other], OF, *covs)(_attainable)
     for section in {key.rpartition(".")[0] for key in covs}:
-        RULES.on(KEYS[one, other], section)(_of_what_the_scene_has)
+        RULES.on(KEYS[one, other], section, in_layers=False)(_of_what_the_scene_has)
 
 
 def _of_what_the_scene_has(rho: float | None, _section_left_out: None) -> str | None:

@@ -13,25 +13,26 @@ class Rule(NamedTuple):
     """A check on the values of some keys; a complaint is reported at the key `place`.
 
     A first key with a star, as "receptor.*.x", is checked for each table of the array, and is the place; a star in the
-    others is the same table.
+    others is the same table. A rule of the soil holds for the soil of each layer if it is `in_layers`.
     """
 
     keys: tuple[str, ...]
     check: Check
     place: str
+    in_layers: bool = True
 
 
 class Rules(list[Rule]):
     """The rules of one section, in the order of their complaints."""
 
-    def on(self, *keys: str, place: str = "") -> Callable[[Check], Check]:
+    def on(self, *keys: str, place: str = "", in_layers: bool = True) -> Callable[[Check], Check]:
         """Add a check that takes the values of `keys` and returns a complaint, worded to follow "..., but".
 
         The complaint is about the first of the keys, or about the key or section `place`.
         """
 
         def add(check: Check) -> Check:
-            self.append(Rule(keys, check, place or keys[0]))
+            self.append(Rule(keys, check, place or keys[0], in_layers))
             return check
 
         return add
@@ -48,7 +49,7 @@ class Rules(list[Rule]):
             for keys, place in _places(rule, values):
                 if all(key in values for key in keys) and (complaint := rule.check(*(values[key] for key in keys))):
                     yield place, complaint
-            for keys, number in _in_layers(rule, values):
+            for keys, number in _in_layers(rule, values) if rule.in_layers else ():
                 if complaint := rule.check(*(values[key] for key in keys)):
                     place, told = _in_layer(rule.place, number), complaint.replace(f"{SOIL}.", "layer.")
                     yield place, told if place != rule.place else f"{told} (in layer {number + 1})"

@@ -187,3 +187,18 @@ def test_odd_layers_are_warned_of(overrides, expected):
 def test_layers_that_can_be_meant_are_not_warned_of():
     scene = load_scene("layered")
     assert sentences(warnings(scene, look_at(scene)), scene) == []
+
+
+def test_correlations_are_of_the_layers_that_have_both_properties():
+    """A layer without friction, or with one residual strength, has none there; too strong ones are refused."""
+    pairs = "field.pairs={cohesion = {cohesion_residual = 0.5}, friction_angle = {friction_angle_residual = 0.5}}"
+    random = "soil.cohesion.residual_cov=0.1", "soil.friction_angle.residual_cov=0.1"
+    layered(pairs, *random, "layer.1.cohesion.residual_cov=0", "layer.2.law=tresca")
+    message = complaint(
+        "field.cross_correlation_of=lognormal",
+        "field.cross_correlation=-0.95",
+        "layer.2.cohesion.cov=0.4",
+        source="layered",
+    )
+    assert message.startswith("--set field.cross_correlation is -0.95, but lognormal fields with these coefficients")
+    assert message.endswith("(in layer 2).")

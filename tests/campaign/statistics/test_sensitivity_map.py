@@ -7,6 +7,7 @@ import pytest
 from layered_soil import maps, runouts, slopes
 from scipy.stats import binom
 
+from campaign.statistics.sensitivity import means_over
 from campaign.statistics.sensitivity_map import sensitivity_map
 
 PER_TENTH = math.log(1.1)
@@ -55,3 +56,27 @@ def test_without_any_effect_hardly_a_map_has_a_clear_box():
     field_map = maps(100, 6)
     clear = [sensitivity_map(field_map, rng.normal(10.0, 1.0, 100), 0.95).is_clear.any() for _ in range(60)]
     assert np.sum(clear) <= binom.ppf(0.999, 60, 0.05)
+
+
+def test_a_property_that_is_random_in_a_part_of_the_ground_counts_there_alone(found):
+    """The second property, which changes nothing, left out of the upper rows: the first one is found as before."""
+    field_map = maps(300, 1)
+    field_map[:, 1, 2:] = np.nan
+    partly = sensitivity_map(field_map, runouts(field_map, 0.3, 2), 0.95)
+    assert np.isnan(partly.change[1, 2:]).all()
+    assert np.isfinite(partly.change[1, :2]).all()
+    truth = PER_TENTH * slopes()[0]
+    assert np.corrcoef(np.nan_to_num(partly.change[0]).ravel(), truth.ravel())[0, 1] > 0.85
+    assert len(partly.everywhere) == 2
+    assert partly.everywhere[0].estimate == pytest.approx(float(np.nansum(partly.change[0])))
+
+
+def test_means_over_moving_ground_take_each_property_where_it_is_random():
+    field_map = maps(3, 1)
+    field_map[:, 1, 2:] = np.nan
+    weights = np.ones(field_map.shape[2:])
+    means = means_over(field_map, weights)
+    np.testing.assert_allclose(means[:, 0], np.nanmean(field_map[:, 0], axis=(1, 2)))
+    np.testing.assert_allclose(means[:, 1], np.nanmean(field_map[:, 1], axis=(1, 2)))
+    weights[:2] = 0.0
+    np.testing.assert_allclose(means_over(field_map, weights)[:, 1], means[:, 1])  # it does not move: all the same
