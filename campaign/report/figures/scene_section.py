@@ -45,7 +45,10 @@ def save(scene: Scene, realization: int, path: Path) -> None:
     """Draw a scene and write the figure, in the format that the name of the file says."""
     with in_style():
         illustration = scene_section(scene, look_at(scene), strengths_of(scene, realization), realization)
-        illustration.figure.savefig(path, bbox_inches="tight")
+        figure = illustration.figure
+        beside = [each for axes in figure.axes for each in axes.artists if not each.get_in_layout()]
+        seen = [*figure.get_default_bbox_extra_artists(), *beside]
+        figure.savefig(path, bbox_inches="tight", bbox_extra_artists=seen)
 
 
 def scene_section(scene: Scene, look: FirstLook, strengths: Strengths, realization: int) -> Illustration:
@@ -83,8 +86,8 @@ def _ground(axes: Axes, section: Section, cell: float) -> None:
     ground = outline(axes, surface, facecolor=GROUND, edgecolor="none")
     if section.layers:
         section.tint_layers(axes, ground)
-        beside = axes.legend(loc="lower left", bbox_to_anchor=(1.0, 0.0), title="layers", alignment="left")
-        axes.add_artist(beside).set_clip_on(False)
+        names = axes.legend(loc="lower left", bbox_to_anchor=(1.0, 0.0), title="layers", alignment="left")
+        axes.add_artist(names).set_in_layout(False)  # or long ones would narrow the panels
     x, y = (cell * np.arange(1 + whole_cells(length, cell)) for length in (surface.width, surface.top))
     if max(x.size, y.size) <= MOST_LINES:
         lines = [[(at, 0.0), (at, surface.top)] for at in x] + [[(0.0, at), (surface.width, at)] for at in y]
