@@ -133,7 +133,7 @@ def yield_tile(tiles, tile, grid, ledger, laws, scheme, gravity, dt):
             fall = fall + moved.fall
             shares = shares_of(moved.x, moved.y, row, column, grid)
             volume = where(moved.stays, volume, 0.0)
-        sums = add_to_state_pool(sums, shares, volume, own_mean_stress(new), yielded)
+        sums = add_to_state_pool(sums, shares, volume, own_mean_stress(new, p.pore_pressure), yielded)
         block = tiles.following[block]
     enter(ledger, work, gravity, fall)
     deposit_state_pool(grid, row, column, sums)

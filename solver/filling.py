@@ -29,8 +29,11 @@ def fill_ground(surface: Surface, cell_size: float, particles_per_cell: int, den
 
 
 def ground_of(model: Model) -> Particles:
-    """Return the particles of a model on their lattice, each of the material whose layer it lies in."""
+    """Return the particles of a model on their lattice, each of the material of its layer, moist or saturated."""
     ground = fill_ground(model.surface, model.cell_size, model.particles_per_cell, model.materials[0].density)
     for number, top in enumerate(model.interfaces, start=1):
         assign_material(ground, ground.y < top.height_at(ground.x), number, model.materials[number].density)
+    is_wet = ground.y < model.water.height_at(ground.x)
+    densities = np.array([material.density_under_water for material in model.materials])
+    ground.mass[is_wet] = (densities[ground.material] * ground.volume)[is_wet]
     return ground

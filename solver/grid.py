@@ -8,7 +8,7 @@ from solver.constants import LANE_COUNT
 from solver.memory import aligned_zeros
 
 PADDING = 2  # layers of nodes beyond a wall: GIMP weights reach one, a particle pressed into the wall a second
-SCALARS = ("mass", "cell_volume", "cell_dilation", "cell_pressure", "cell_plastic_strain")
+SCALARS = ("mass", "overburden", "cell_volume", "cell_dilation", "cell_pressure", "cell_plastic_strain")
 VECTORS = ("momentum", "force", "acceleration", "velocity", "remapped")
 NO_SMOOTHING = np.ones(1)
 SMALLEST_MASS = 1e-12  # kg/m: below it a node carries nothing and 0/0 is avoided
@@ -31,9 +31,11 @@ class Grid(NamedTuple):
     height: float  # m, of the space particles may occupy
     free_x: np.ndarray  # (rows, columns) 1 where the node may move horizontally, 0 at the sides and the base
     free_y: np.ndarray  # (rows, columns) 1 where the node may move vertically, 0 at the base
+    has_water: bool  # so that pore pressures are found
     mass: np.ndarray  # (rows, columns) kg/m
     momentum: np.ndarray  # (rows, 2, columns) kg/s, of the particles as they are
     force: np.ndarray  # (rows, 2, columns) N/m, internal
+    overburden: np.ndarray  # (rows, columns) Pa, weight of the ground above a node, where there is water
     acceleration: np.ndarray  # (rows, 2, columns) m/s2
     velocity: np.ndarray  # (rows, 2, columns) m/s, at the end of the step
     remapped: np.ndarray  # (rows, 2, columns) momentum (kg/s), then velocity (m/s), of the updated particles
@@ -55,7 +57,12 @@ def particle_spacing(cell_size: float, particles_per_cell: int) -> float:
 
 
 def allocate_grid(
-    width: float, height: float, cell_size: float, half_length: float, smoothing: np.ndarray = NO_SMOOTHING
+    width: float,
+    height: float,
+    cell_size: float,
+    half_length: float,
+    smoothing: np.ndarray = NO_SMOOTHING,
+    has_water: bool = False,
 ) -> Grid:
     """Return a grid for material between ``0 <= x <= width`` and ``0 <= y <= height``.
 
@@ -69,6 +76,8 @@ def allocate_grid(
         Half length of a particle's domain over the cell size (see ``basis``).
     smoothing : ndarray (2k + 1,)
         Weights of the average of plastic strain (see ``nonlocal_softening``).
+    has_water : bool
+        Whether particles have pore pressures.
     """
     cells_x = whole_cells(width, cell_size)
     cells_y = whole_cells(height, cell_size)
@@ -90,6 +99,7 @@ def allocate_grid(
         height=cells_y * float(cell_size),
         free_x=(above_base & between_sides).astype(float),
         free_y=above_base.astype(float),
+        has_water=has_water,
         smoothing=smoothing,
         **{name: aligned_zeros((rows, columns)) for name in SCALARS},
         **{name: aligned_zeros((rows, 2, columns)) for name in VECTORS},

@@ -16,10 +16,11 @@ import numpy as np
 from solver import observables
 from solver.balance import felt_share, unbalanced_share
 from solver.constants import STANDARD_GRAVITY
-from solver.filling import ground_of
 from solver.method import Method
 from solver.model import Model
+from solver.overburden import overburden
 from solver.particles import Particles
+from solver.pore_pressure import wet_ground_of
 from solver.scheme import scheme_of
 from solver.slide import PAPER
 from solver.softening import NO_SOFTENING
@@ -41,19 +42,9 @@ class NotSettledError(RuntimeError):
     """The ground does not come to rest under its own weight."""
 
 
-def overburden(model: Model, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the weight in Pa of the ground above each place, ``sum gamma_k thickness_k`` over the layers."""
-    weight = np.zeros_like(x)
-    tops = [surface.height_at(x) for surface in (model.surface, *model.interfaces)]
-    bottoms = [*tops[1:], np.full_like(x, -np.inf)]
-    for material, top, bottom in zip(model.materials, tops, bottoms, strict=True):
-        weight += material.unit_weight * np.maximum(np.minimum(top, tops[0]) - np.maximum(bottom, y), 0.0)
-    return weight
-
-
 def lay_geostatic_stress(particles: Particles, model: Model) -> None:
-    """Start from ``s_yy = -overburden``, ``s_xx = s_zz = nu / (1 - nu) s_yy``, exact under level ground; in place."""
-    vertical = -overburden(model, particles.x, particles.y)
+    """Start from ``s_yy = u - weight above``, ``s_xx = s_zz = nu / (1 - nu) s_yy``, exact under level ground."""
+    vertical = particles.pore_pressure - overburden(model, particles.x, particles.y)
     poisson_ratio = np.array([material.poisson_ratio for material in model.materials])[particles.material]
     horizontal = poisson_ratio / (1.0 - poisson_ratio) * vertical
     particles.stress_yy[:] = vertical
@@ -106,7 +97,7 @@ def in_situ_state(model: Model, from_nothing: bool = False) -> Particles:
         If neither the unbalanced force of the nodes nor that which particles feel falls below 1e-4 of the weight.
     """
     model = loading_model(model)
-    particles = ground_of(model)
+    particles = wet_ground_of(model)
     if not from_nothing:
         lay_geostatic_stress(particles, model)
     grid = model.allocate_grid()

@@ -25,11 +25,22 @@ class Material(NamedTuple):
     density: float  # kg/m3
     poisson_ratio: float
     law: Law
+    saturated_density: float | None = None  # kg/m3, below the water table; None: the same
 
     @property
     def unit_weight(self) -> float:
-        """Weight of a volume in N/m3."""
+        """Weight of a volume in N/m3, above the water table."""
         return self.density * STANDARD_GRAVITY
+
+    @property
+    def density_under_water(self) -> float:
+        """Density in kg/m3 below the water table."""
+        return self.density if self.saturated_density is None else self.saturated_density
+
+    @property
+    def saturated_unit_weight(self) -> float:
+        """Weight of a volume in N/m3, below the water table."""
+        return self.density_under_water * STANDARD_GRAVITY
 
     @property
     def wave_speed(self) -> float:
@@ -43,9 +54,9 @@ class Material(NamedTuple):
 
 
 class Deformed(NamedTuple):
-    """Particles after an increment, and the work of their stresses in it; lanes or floats."""
+    """Particles after an increment, and the work of their total stresses in it; lanes or floats."""
 
-    stress_xx: float  # Pa
+    stress_xx: float  # Pa, effective
     stress_yy: float
     stress_zz: float
     stress_xy: float
@@ -85,6 +96,7 @@ def deformed(particles, increment, laws, dt):
     volume = particles.volume * volume_ratio(l_xx, l_xy, l_yx, l_yy)
     mean_volume = 0.5 * (volume + particles.volume)
     work = mean_volume * (0.5 * ((xx + new_xx) * l_xx + (yy + new_yy) * l_yy) + (xy + new_xy) * shear)
+    work = work - mean_volume * particles.pore_pressure * (l_xx + l_yy)
     return Deformed(new_xx, new_yy, new_zz, new_xy, plastic_strain, volume, work)
 
 

@@ -11,6 +11,7 @@ from solver.method import Method
 from solver.scheme import AnyScheme, scheme_of
 from solver.slide import PAPER, SlideCriteria
 from solver.surface import Surface
+from solver.water import NO_WATER, Water
 
 HEADROOM_IN_CELLS = 2  # space above the highest ground
 
@@ -28,6 +29,7 @@ class Model(NamedTuple):
     ramp_time: float = 0.0  # s over which gravity grows with plasticity active; 0 releases a loaded slope at once
     criteria: SlideCriteria = PAPER
     interfaces: tuple[Surface, ...] = ()  # the k-th is the top of the material k + 1
+    water: Water = NO_WATER
 
     @property
     def laws(self) -> tuple[Law, ...]:
@@ -63,4 +65,5 @@ class Model(NamedTuple):
         """Return an empty grid for the scene."""
         height = self.surface.top + HEADROOM_IN_CELLS * self.cell_size
         smoothing = smoothing_weights(self.internal_length, self.cell_size, self.half_length)
-        return allocate_grid(self.surface.width, height, self.cell_size, self.half_length, smoothing)
+        has_water = self.water != NO_WATER
+        return allocate_grid(self.surface.width, height, self.cell_size, self.half_length, smoothing, has_water)

@@ -14,7 +14,7 @@ class Particles(NamedTuple):
     velocity_y: np.ndarray  # (n,) m/s
     mass: np.ndarray  # (n,) kg/m
     volume: np.ndarray  # (n,) m2
-    stress_xx: np.ndarray  # (n,) Pa, Cauchy, tension positive
+    stress_xx: np.ndarray  # (n,) Pa, Cauchy, effective, tension positive
     stress_yy: np.ndarray  # (n,) Pa
     stress_zz: np.ndarray  # (n,) Pa
     stress_xy: np.ndarray  # (n,) Pa
@@ -23,6 +23,8 @@ class Particles(NamedTuple):
     friction_angle: np.ndarray  # (n,) rad, peak
     cohesion_residual: np.ndarray  # (n,) Pa
     friction_angle_residual: np.ndarray  # (n,) rad
+    pore_pressure_ratio: np.ndarray  # (n,) pore pressure over the weight of the ground above, see ``pore_pressure``
+    pore_pressure: np.ndarray  # (n,) Pa, compression positive; stresses are effective
     material: np.ndarray  # (n,) number of the particle's material, from 0
 
 

@@ -29,9 +29,9 @@ def no_state_pool():
 
 
 @inlined
-def own_mean_stress(particles):
-    """Return the in-plane mean stress of particles in Pa."""
-    return 0.5 * (particles.stress_xx + particles.stress_yy)
+def own_mean_stress(effective, pore_pressure):
+    """Return the in-plane mean of the total stress of particles in Pa, of their effective stress and pore pressure."""
+    return 0.5 * (effective.stress_xx + effective.stress_yy) - pore_pressure
 
 
 @inlined
@@ -69,7 +69,7 @@ def pool_lane(tiles, block, lane, grid):
     volume = where(lane_numbers() == float(lane), p.volume, 0.0)
     shares = shares_of(p.x, p.y, row, column, grid)
     increment = get(tiles, block, PLASTIC_INCREMENT)
-    sums = add_to_state_pool(no_state_pool(), shares, volume, own_mean_stress(p), increment)
+    sums = add_to_state_pool(no_state_pool(), shares, volume, own_mean_stress(p, p.pore_pressure), increment)
     deposit_state_pool(grid, row, column, sums)
 
 
@@ -106,7 +106,7 @@ def pool_each(tiles, grid, scheme):
             p = take(tiles, block)
             shares = shares_of(p.x, p.y, row, column, grid)
             increment = get(tiles, block, PLASTIC_INCREMENT)
-            sums = add_to_state_pool(sums, shares, p.volume, own_mean_stress(p), increment)
+            sums = add_to_state_pool(sums, shares, p.volume, own_mean_stress(p, p.pore_pressure), increment)
             block = tiles.following[block]
         if tiles.first[tile] >= 0:
             deposit_state_pool(grid, row, column, sums)

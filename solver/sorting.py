@@ -20,6 +20,8 @@ from solver.tiles import (
     MATERIAL,
     NUMBER,
     PLASTIC_STRAIN,
+    PORE_PRESSURE,
+    PORE_PRESSURE_RATIO,
     STEPS,
     STRESS_XX,
     STRESS_XY,
@@ -67,6 +69,8 @@ def fill_tiles(particles, grid, room):
         fields[COHESION], fields[COHESION_RESIDUAL] = particles.cohesion[p], particles.cohesion_residual[p]
         fields[FRICTION_ANGLE] = particles.friction_angle[p]
         fields[FRICTION_ANGLE_RESIDUAL] = particles.friction_angle_residual[p]
+        fields[PORE_PRESSURE_RATIO] = particles.pore_pressure_ratio[p]
+        fields[PORE_PRESSURE] = particles.pore_pressure[p]
         fields[NUMBER] = p
         tiles.counts[LEAVERS] += 1
         settle_next(tiles, grid)
@@ -119,6 +123,7 @@ def write_back(at, particles):
     particles.volume[p], particles.plastic_strain[p] = at[VOLUME], at[PLASTIC_STRAIN]
     particles.stress_xx[p], particles.stress_yy[p] = at[STRESS_XX], at[STRESS_YY]
     particles.stress_zz[p], particles.stress_xy[p] = at[STRESS_ZZ], at[STRESS_XY]
+    particles.pore_pressure[p] = at[PORE_PRESSURE]
 
 
 @kernel

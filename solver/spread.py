@@ -25,7 +25,7 @@ def spread_tile(tiles, tile, grid):
     while block >= 0:
         p = take(tiles, block)
         w = weights_of(p.x, p.y, row, column, grid)
-        sums = add_state(sums, w, load_of(p, own_mean_stress(p)))
+        sums = add_state(sums, w, load_of(p, own_mean_stress(p, p.pore_pressure)))
         block = tiles.following[block]
     deposit_state(grid, row, column, sums)
 
@@ -40,7 +40,7 @@ def spread_tile_of_cells(tiles, tile, grid, scheme):
         p = take(tiles, block)
         w = weights_of(p.x, p.y, row, column, grid)
         shares = shares_of(p.x, p.y, row, column, grid)
-        mean_stress = own_mean_stress(p)
+        mean_stress = own_mean_stress(p, p.pore_pressure)
         if scheme.averages_dilation:
             mean_stress = read(grid.cell_pressure, row, column, shares, grid)
         if scheme.averages_plastic_strain:
@@ -92,7 +92,7 @@ def spread_lane(tiles, block, lane, grid):
     row, column = place_of(tiles.tile[block], grid)
     p = take(tiles, block)
     is_it = lane_numbers() == float(lane)
-    brought = load_of(p, own_mean_stress(p))
+    brought = load_of(p, own_mean_stress(p, p.pore_pressure))
     alone = Load(
         where(is_it, brought.mass, 0.0),
         where(is_it, brought.momentum_x, 0.0),

@@ -32,10 +32,11 @@ from solver.grid import Grid
 from solver.lanes import load, store
 from solver.operations import accelerate_block, remap_velocity, solve_momentum
 from solver.particles import Particles
+from solver.pore_pressure import find_overburden, pore_pressure_of
 from solver.scheme import MUSL, USF, AnyScheme
 from solver.sorting import fill_tiles, read_tiles, sort_if_due
 from solver.spread import spread_all, spread_each
-from solver.tiles import LEAVERS, Tiles, allocate_tiles, place_of, take
+from solver.tiles import LEAVERS, PORE_PRESSURE, Tiles, allocate_tiles, place_of, put, take
 from solver.transfer import add_momentum, deposit_momentum, interpolate, no_momentum, weights_of
 
 
@@ -53,7 +54,7 @@ def allocate_workspace(n_particles: int) -> Workspace:
 
 @sweep
 def accelerate_each(tiles, grid, scheme, dt):
-    """Operation 3, and the transfer of 4 where the stress is updated last, modified."""
+    """Operation 3, the transfer of 4 where the stress is updated last, modified, and the pore pressures."""
     remaps = scheme.stress_update == MUSL
     for tile in range(tiles.first.size):
         block = tiles.first[tile]
@@ -68,6 +69,8 @@ def accelerate_each(tiles, grid, scheme, dt):
             velocity = interpolate(grid.velocity, row, column, w, grid)
             v_x, v_y = accelerate_block(tiles, block, p, acceleration, velocity, scheme.flip_fraction, dt)
             sums = add_momentum(sums, w, p.mass * v_x, p.mass * v_y)
+            if grid.has_water:
+                put(tiles, block, PORE_PRESSURE, pore_pressure_of(p, row, column, w, grid))
             block = tiles.following[block]
         if remaps:
             deposit_momentum(grid.remapped, row, column, sums, grid)
@@ -110,6 +113,8 @@ def take_steps(tiles, grid, work, laws, scheme, gravity, gravity_rate, dt, steps
         tiles = sort_if_due(tiles, grid)
         g = gravity + gravity_rate * (taken + 0.5) * dt
         solve_momentum(grid, g, scheme.damping, dt)
+        if grid.has_water:
+            find_overburden(grid, g)
         are_all_there = accelerate(tiles, grid, work, scheme, g, dt) and deform(
             tiles, grid, work.ledger, laws, scheme, g, dt
         )

@@ -23,11 +23,12 @@ from solver.particles import UNYIELDING, Particles
 
 # Fields of a block: those of the particles in their order, then what a step keeps until it ends.
 X, Y, VELOCITY_X, VELOCITY_Y, MASS, VOLUME, STRESS_XX, STRESS_YY, STRESS_ZZ, STRESS_XY, PLASTIC_STRAIN = range(11)
-COHESION, FRICTION_ANGLE, COHESION_RESIDUAL, FRICTION_ANGLE_RESIDUAL, MATERIAL = range(11, 16)
-NUMBER = 16  # of the particle
-MOVED_X, MOVED_Y = 17, 18  # m, places at the end of the step
-INCREMENT_XX, INCREMENT_XY, INCREMENT_YX, INCREMENT_YY = 19, 20, 21, 22  # displacement gradient of the step
-FIELDS = 23
+COHESION, FRICTION_ANGLE, COHESION_RESIDUAL, FRICTION_ANGLE_RESIDUAL = range(11, 15)
+PORE_PRESSURE_RATIO, PORE_PRESSURE, MATERIAL = range(15, 18)
+NUMBER = 18  # of the particle
+MOVED_X, MOVED_Y = 19, 20  # m, places at the end of the step
+INCREMENT_XX, INCREMENT_XY, INCREMENT_YX, INCREMENT_YY = 21, 22, 23, 24  # displacement gradient of the step
+FIELDS = 25
 PLASTIC_INCREMENT = INCREMENT_XX  # of the plastic strain, until it is averaged: in the place of what is used up
 
 BLOCK = FIELDS * LANE_COUNT
@@ -112,6 +113,8 @@ def take(tiles, block):
         load(blocks, k + FRICTION_ANGLE * LANE_COUNT),
         load(blocks, k + COHESION_RESIDUAL * LANE_COUNT),
         load(blocks, k + FRICTION_ANGLE_RESIDUAL * LANE_COUNT),
+        load(blocks, k + PORE_PRESSURE_RATIO * LANE_COUNT),
+        load(blocks, k + PORE_PRESSURE * LANE_COUNT),
         load(blocks, k + MATERIAL * LANE_COUNT),
     )
 

@@ -139,9 +139,13 @@ def between_walls(vectors, grid):
 
 
 def spread(particles, grid, method):
-    """Line 1: return the state of the nodes, and with cell averages the stress of their virtual work."""
+    """Line 1: return the state of the nodes, of the total stress, averaged over the cells where the method does."""
     s = weights_at(particles, grid)
-    xx, yy, xy = particles.stress_xx, particles.stress_yy, particles.stress_xy
+    xx, yy, xy = (
+        particles.stress_xx - particles.pore_pressure,
+        particles.stress_yy - particles.pore_pressure,
+        particles.stress_xy,
+    )
     if method.has_cell_averages:
         mean = 0.5 * (xx + yy)
         change = cell_average(mean, particles, grid) - mean
@@ -166,6 +170,13 @@ def accelerate(particles, s, acceleration, velocity, flip_fraction, dt):
     for axis, v_p in enumerate((particles.velocity_x, particles.velocity_y)):
         flip = v_p + s.T @ acceleration[:, axis] * dt
         v_p[:] = flip_fraction * flip + (1.0 - flip_fraction) * (s.T @ velocity[:, axis])
+
+
+def feel_overburden(particles, s, mass, grid, gravity):
+    """Set the pore pressures, in place: of the weight above each node, with half its own, over the width of a cell."""
+    weight = gravity * mass.reshape(grid.rows, grid.columns) / grid.cell_size
+    overburden = np.cumsum(weight[::-1], axis=0)[::-1] - 0.5 * weight
+    particles.pore_pressure[:] = particles.pore_pressure_ratio * (s.T @ overburden.ravel())
 
 
 def move(particles, displacement):
@@ -200,7 +211,7 @@ def rotated(stress, angle):
 
 
 def deform(particles, increments, point_law):
-    """Line 5, in place: turn the stress with the ground, let the law change it; return the work of the stresses.
+    """Line 5, in place: turn the stress with the ground, let the law change it; return the work of the total stress.
 
     ``point_law(p, (xx, yy, zz, xy), (strain_xx, strain_yy, strain_xy), plastic_strain)`` returns the new stress and
     plastic strain of particle ``p``. The rotation is Cayley's: its half angle has the tangent ``W_yx dt / 2``.
@@ -220,7 +231,7 @@ def deform(particles, increments, point_law):
             particles.plastic_strain[p],
         )
         volume = particles.volume[p] * np.linalg.det(np.eye(2) + L)
-        mean_stress = 0.5 * (before + np.array([[xx, xy], [xy, yy]]))
+        mean_stress = 0.5 * (before + np.array([[xx, xy], [xy, yy]])) - particles.pore_pressure[p] * np.eye(2)
         work += 0.5 * (volume + particles.volume[p]) * np.sum(mean_stress * strain)
         particles.stress_xx[p], particles.stress_yy[p] = xx, yy
         particles.stress_zz[p], particles.stress_xy[p] = zz, xy
@@ -251,6 +262,8 @@ def reference_step(start, grid, point_law, method, gravity, gravity_rate, dt):
     before = spread(particles, grid, method)  # 1
     acceleration, velocity = solve(before, grid, method, gravity, dt)  # 2
     s = weights_at(particles, grid).s
+    if grid.has_water:
+        feel_overburden(particles, s, before.mass, grid, gravity)
     displacement = s.T @ velocity[:, 0] * dt, s.T @ velocity[:, 1] * dt
     accelerate(particles, s, acceleration, velocity, method.flip_fraction, dt)  # 3
     if method.stress_update == "usf":

@@ -7,11 +7,12 @@ from small_slope import small_model, with_strength
 
 from solver._jit import kernel
 from solver.filling import ground_of
-from solver.in_situ import in_situ_state, overburden
+from solver.in_situ import in_situ_state
 from solver.laws.mohr_coulomb import mohr_coulomb
 from solver.laws.registry import Constants
 from solver.march import march_to_rest
 from solver.materials import Material, deformed, mobilised_strength
+from solver.overburden import overburden
 from solver.particles import Particles, allocate_particles, assign_material
 from solver.softening import Softening
 from solver.surface import Surface
@@ -42,7 +43,8 @@ def update(particles, increment, laws, dt):
             particles.x[p], particles.y[p], particles.velocity_x[p], particles.velocity_y[p], particles.mass[p],
             particles.volume[p], particles.stress_xx[p], particles.stress_yy[p], particles.stress_zz[p],
             particles.stress_xy[p], particles.plastic_strain[p], particles.cohesion[p], particles.friction_angle[p],
-            particles.cohesion_residual[p], particles.friction_angle_residual[p], float(particles.material[p]),
+            particles.cohesion_residual[p], particles.friction_angle_residual[p], particles.pore_pressure_ratio[p],
+            particles.pore_pressure[p], float(particles.material[p]),
         )  # fmt: skip
         l_p = increment[0, p], increment[1, p], increment[2, p], increment[3, p]
         new = deformed(one, l_p, laws, dt)

@@ -17,6 +17,7 @@ from solver.particles import copy_particles
 from solver.scheme import STRESS_UPDATES, scheme_of
 from solver.softening import Strength
 from solver.step import advance, allocate_workspace
+from solver.water import Water
 
 MODEL = small_model()
 MID_SLIDE = 0.6  # s
@@ -42,16 +43,17 @@ def mid_slide():
     return march.particles
 
 
-def model_with(basis, step, internal_length):
-    """Return the slope's model with this basis and way to take a step."""
+def model_with(basis, step, internal_length, start):
+    """Return the slope's model with this basis and way to take a step, and with water if ``start`` has any."""
     method = Method(basis, step.stress_update, "cell-average" if step.has_cell_averages else "none", step.flip_fraction)
-    return MODEL._replace(method=method, internal_length=internal_length)
+    water = Water(ratio=float(start.pore_pressure_ratio.max()))
+    return MODEL._replace(method=method, internal_length=internal_length, water=water)
 
 
 def fused_step(start, basis, step, gravity, rate, steps=1):
     """Return particles, nodes and energy ledger after one call of ``advance``."""
     particles, work = copy_particles(start), allocate_workspace(start.x.size)
-    model = model_with(basis, step, INTERNAL_LENGTH if step.has_internal_length else 0.0)
+    model = model_with(basis, step, INTERNAL_LENGTH if step.has_internal_length else 0.0, start)
     grid, scheme = model.allocate_grid(), scheme_of(model.method, step.damping, step.has_internal_length)
     assert advance(particles, grid, work, model.laws, scheme, gravity, rate, DT, steps) == steps
     return particles, grid, work.ledger
@@ -64,7 +66,7 @@ def plain_step(start, basis, step, gravity, rate):
         strength = Strength(*(getattr(start, name)[p] for name in Strength._fields))
         return update_stress(law, stress, strain, plastic_strain, strength, DT)
 
-    grid = model_with(basis, step, INTERNAL_LENGTH).allocate_grid()
+    grid = model_with(basis, step, INTERNAL_LENGTH, start).allocate_grid()
     return reference_step(start, grid, point_law, step, gravity, rate, DT)
 
 
@@ -106,6 +108,14 @@ IDS = [f"{method.stress_update}-{method.has_cell_averages}-{method.has_internal_
 @pytest.mark.parametrize("method", METHODS, ids=IDS)
 def test_a_step_is_that_of_the_box(mid_slide, basis, method):
     assert largest_deviation(mid_slide, basis, method) < TOLERANCE
+
+
+@pytest.mark.parametrize("method", METHODS, ids=IDS)
+def test_a_step_of_wet_ground_is_that_of_the_box(mid_slide, method):
+    rng = np.random.default_rng(12)
+    ratio, pressure = rng.uniform(0.0, 0.5, mid_slide.x.size), rng.uniform(0.0, 2e4, mid_slide.x.size)
+    wet = mid_slide._replace(pore_pressure_ratio=ratio, pore_pressure=pressure)
+    assert largest_deviation(wet, "gimp", method) < TOLERANCE
 
 
 @pytest.mark.parametrize("method", METHODS, ids=IDS)

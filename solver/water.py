@@ -1,0 +1,38 @@
+"""Ground water, as a scene draws it; NumPy only.
+
+Above the water table the ground is moist and free of pore pressure, below it saturated, with the pressure of the water
+column up to the table, ``u = gamma_w (z_w - y)``. Without a table the pore pressure is everywhere the same share of the
+weight of the ground above, ``u = r_u gamma d``: the pore pressure ratio of Bishop and Morgenstern (1960, Geotechnique
+10:129).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from solver.surface import Surface
+
+UNIT_WEIGHT = 9810.0  # N/m3
+
+
+class Water(NamedTuple):
+    """A water table, or a ratio of pore pressure to overburden where there is none."""
+
+    table: Surface | None = None
+    ratio: float = 0.0  # r_u
+    unit_weight: float = UNIT_WEIGHT  # N/m3
+
+    def height_at(self, x: np.ndarray) -> np.ndarray:
+        """Return the elevation in m of the table above each ``x``; below all ground without one."""
+        return np.full_like(x, -np.inf) if self.table is None else self.table.height_at(x)
+
+    def pore_pressure(self, x: np.ndarray, y: np.ndarray, overburden: np.ndarray) -> np.ndarray:
+        """Return the pore pressure in Pa at places ``x``, ``y`` (m) under an ``overburden`` (Pa)."""
+        if self.table is None:
+            return self.ratio * overburden
+        column: np.ndarray = self.unit_weight * np.maximum(self.height_at(x) - y, 0.0)
+        return column
+
+
+NO_WATER = Water()
+"""A ratio of zero: the ground is free of pore pressure."""

@@ -1,0 +1,91 @@
+"""Ground water: its pressure as drawn, at rest, and in ground that moves."""
+
+import numpy as np
+import pytest
+from small_slope import small_model, with_strength
+
+from solver.in_situ import in_situ_state
+from solver.march import March
+from solver.overburden import overburden
+from solver.pore_pressure import wet_ground_of
+from solver.surface import Surface
+from solver.water import Water
+
+MODEL = small_model()
+LEVEL = Surface(np.array([0.0, 5.0]), np.array([4.0, 4.0]))
+UNIT_WEIGHT = MODEL.materials[0].unit_weight
+SATURATED = MODEL.materials[0]._replace(saturated_density=2200.0)
+
+
+def level_model(table):
+    """Return level ground of 4 m that is saturated below a table at that elevation in m."""
+    water = Water(Surface(np.array([0.0, 5.0]), np.array([table, table])))
+    return MODEL._replace(surface=LEVEL, materials=(SATURATED,), water=water)
+
+
+@pytest.mark.parametrize("table", [4.0, 2.5])
+def test_saturated_level_ground_carries_its_weight_less_the_pressure_of_the_water(table):
+    """``u = gamma_w z`` below the table, ``s_yy = u - gamma d``, ``s_xx = K0 s_yy``: Terzaghi's effective stress."""
+    model = level_model(table)
+    ground = in_situ_state(model)
+    dry, wet = np.minimum(4.0 - ground.y, 4.0 - table), np.maximum(table - ground.y, 0.0)
+    total = UNIT_WEIGHT * dry + 2200.0 * 9.81 * wet
+    size = 4.0 * UNIT_WEIGHT
+    np.testing.assert_allclose(ground.pore_pressure, 9810.0 * wet, atol=1e-3 * size)
+    np.testing.assert_allclose(ground.stress_yy, 9810.0 * wet - total, atol=1e-3 * size)
+    np.testing.assert_allclose(ground.stress_xx, 0.3 / 0.7 * (9810.0 * wet - total), atol=1e-3 * size)
+
+
+def test_ground_below_the_table_has_its_saturated_weight():
+    ground = wet_ground_of(level_model(2.5))
+    np.testing.assert_allclose(ground.mass / ground.volume, np.where(ground.y < 2.5, 2200.0, 2000.0))
+    found = overburden(level_model(2.5), np.array([1.0, 1.0]), np.array([3.0, 0.5]))
+    np.testing.assert_allclose(found, 9.81 * np.array([2000.0, 1.5 * 2000.0 + 2.0 * 2200.0]))
+
+
+def test_a_ratio_is_that_of_the_weight_above():
+    """``u = r_u gamma d`` under a slope before it slides, to 0.1 % after it has settled elastically."""
+    model = MODEL._replace(water=Water(ratio=0.4))
+    ground = wet_ground_of(model)
+    depth = model.surface.height_at(ground.x) - ground.y
+    np.testing.assert_allclose(ground.pore_pressure, 0.4 * UNIT_WEIGHT * depth, rtol=1e-12)
+    np.testing.assert_allclose(in_situ_state(model).pore_pressure, ground.pore_pressure, atol=4.0 * UNIT_WEIGHT * 1e-3)
+
+
+def test_dry_ground_is_ground_with_a_ratio_of_zero():
+    dry, wet = (in_situ_state(MODEL._replace(water=water)) for water in (Water(), Water(unit_weight=1.0)))
+    for one, other in zip(dry, wet, strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+@pytest.fixture(scope="module")
+def slid():
+    """Return a slope with water after it has slid, and before."""
+    model = MODEL._replace(water=Water(ratio=0.4))
+    start = with_strength(in_situ_state(model))
+    march = March(model, start)
+    assert march.advance_to(2.0) is None
+    return march
+
+
+def test_pore_pressure_follows_the_ground(slid):
+    """Each particle keeps its share of the weight above: of the columns of ground after the slide, to half a cell."""
+    after = slid.particles
+    assert np.hypot(after.x - slid.start.x, after.y - slid.start.y).max() > 1.0
+    columns = np.arange(0.0, slid.model.surface.width, slid.model.cell_size)
+    thickness = np.histogram(after.x, columns, weights=after.volume)[0] / slid.model.cell_size
+    depth = np.interp(after.x, columns[:-1] + 0.25, thickness) - after.y
+    deep = depth > 1.5
+    assert deep.sum() > 50
+    np.testing.assert_allclose(after.pore_pressure[deep], 0.4 * UNIT_WEIGHT * depth[deep], atol=0.25 * UNIT_WEIGHT)
+    assert after.pore_pressure.min() >= 0.0
+
+
+def test_the_work_of_the_pore_pressure_is_in_the_ledger(slid):
+    assert abs(slid.energy.error()) < 0.005
+
+
+def test_water_makes_a_slope_slide_farther(slid):
+    dry = March(MODEL, with_strength(in_situ_state(MODEL)))
+    assert dry.advance_to(2.0) is None
+    assert slid.moment().runout > dry.moment().runout + 0.3
