@@ -6,9 +6,10 @@ import numpy as np
 
 from solver.constants import LANE_COUNT
 from solver.memory import aligned_zeros
+from solver.standing_water import NO_LAKE
 
 PADDING = 2  # layers of nodes beyond a wall: GIMP weights reach one, a particle pressed into the wall a second
-SCALARS = ("mass", "overburden", "cell_volume", "cell_dilation", "cell_pressure", "cell_plastic_strain")
+SCALARS = ("mass", "overburden", "uplift", "cell_volume", "cell_dilation", "cell_pressure", "cell_plastic_strain")
 VECTORS = ("momentum", "force", "acceleration", "velocity", "remapped")
 NO_SMOOTHING = np.ones(1)
 SMALLEST_MASS = 1e-12  # kg/m: below it a node carries nothing and 0/0 is avoided
@@ -32,10 +33,12 @@ class Grid(NamedTuple):
     free_x: np.ndarray  # (rows, columns) 1 where the node may move horizontally, 0 at the sides and the base
     free_y: np.ndarray  # (rows, columns) 1 where the node may move vertically, 0 at the base
     has_water: bool  # so that pore pressures are found
+    lake: np.ndarray  # (4,) standing water, see ``standing_water``
     mass: np.ndarray  # (rows, columns) kg/m
     momentum: np.ndarray  # (rows, 2, columns) kg/s, of the particles as they are
     force: np.ndarray  # (rows, 2, columns) N/m, internal
     overburden: np.ndarray  # (rows, columns) Pa, weight of the ground above a node, where there is water
+    uplift: np.ndarray  # (rows, columns) Pa, what of it standing water carries
     acceleration: np.ndarray  # (rows, 2, columns) m/s2
     velocity: np.ndarray  # (rows, 2, columns) m/s, at the end of the step
     remapped: np.ndarray  # (rows, 2, columns) momentum (kg/s), then velocity (m/s), of the updated particles
@@ -63,6 +66,7 @@ def allocate_grid(
     half_length: float,
     smoothing: np.ndarray = NO_SMOOTHING,
     has_water: bool = False,
+    lake: np.ndarray = NO_LAKE,
 ) -> Grid:
     """Return a grid for material between ``0 <= x <= width`` and ``0 <= y <= height``.
 
@@ -78,6 +82,8 @@ def allocate_grid(
         Weights of the average of plastic strain (see ``nonlocal_softening``).
     has_water : bool
         Whether particles have pore pressures.
+    lake : ndarray (4,)
+        Standing water (see ``standing_water``).
     """
     cells_x = whole_cells(width, cell_size)
     cells_y = whole_cells(height, cell_size)
@@ -100,6 +106,7 @@ def allocate_grid(
         free_x=(above_base & between_sides).astype(float),
         free_y=above_base.astype(float),
         has_water=has_water,
+        lake=lake.copy(),
         smoothing=smoothing,
         **{name: aligned_zeros((rows, columns)) for name in SCALARS},
         **{name: aligned_zeros((rows, 2, columns)) for name in VECTORS},

@@ -10,6 +10,7 @@ from solver.materials import Material
 from solver.method import Method
 from solver.scheme import AnyScheme, scheme_of
 from solver.slide import PAPER, SlideCriteria
+from solver.standing_water import lake_of
 from solver.surface import Surface
 from solver.water import NO_WATER, Water
 
@@ -66,4 +67,5 @@ class Model(NamedTuple):
         height = self.surface.top + HEADROOM_IN_CELLS * self.cell_size
         smoothing = smoothing_weights(self.internal_length, self.cell_size, self.half_length)
         has_water = self.water != NO_WATER
-        return allocate_grid(self.surface.width, height, self.cell_size, self.half_length, smoothing, has_water)
+        lake = lake_of(self.water, max(each.density_under_water for each in self.materials))
+        return allocate_grid(self.surface.width, height, self.cell_size, self.half_length, smoothing, has_water, lake)

@@ -8,6 +8,7 @@ from solver.grid import SMALLEST_MASS
 from solver.lanes import bits, load, splat, store, where
 from solver.leavers import is_in_base_cell, take_out
 from solver.materials import deformed
+from solver.standing_water import displaced_mass
 from solver.tiles import (
     MOVED_X,
     MOVED_Y,
@@ -168,7 +169,7 @@ class Moved(NamedTuple):
     x: float  # m
     y: float
     stays: bool  # in its base cell
-    fall: float  # kg m, loss of height times mass
+    fall: float  # kg m, loss of height times mass, less that of the water displaced
 
 
 @inlined
@@ -191,4 +192,5 @@ def move_block(tiles, block, particles, row, column, grid):
     put(tiles, block, Y, y)
     stays = is_in_base_cell(x, y, row, column, grid)
     take_out(tiles, block, particles.mass > 0.0, stays, row, column, grid)
-    return Moved(x, y, stays, particles.mass * (particles.y - y))
+    submerged_mass = particles.mass - displaced_mass(particles, grid)
+    return Moved(x, y, stays, submerged_mass * (particles.y - y))

@@ -24,7 +24,7 @@ class Particles(NamedTuple):
     cohesion_residual: np.ndarray  # (n,) Pa
     friction_angle_residual: np.ndarray  # (n,) rad
     pore_pressure_ratio: np.ndarray  # (n,) pore pressure over the weight of the ground above, see ``pore_pressure``
-    pore_pressure: np.ndarray  # (n,) Pa, compression positive; stresses are effective
+    pore_pressure: np.ndarray  # (n,) Pa, compression positive, beyond that of standing water; stresses are effective
     material: np.ndarray  # (n,) number of the particle's material, from 0
 
 

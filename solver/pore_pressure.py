@@ -3,24 +3,35 @@
 Stresses of particles are effective, and what pushes the nodes is the total stress, ``sigma - u``. A slide takes seconds
 and does not drain: each particle keeps the ratio ``r`` of its pore pressure to the weight of the ground above it, so
 that the pressure falls where the slide thins and rises where it is overridden, ``u_p = r_p sum_i S_ip W_i``. The
-overburden ``W_i`` of a node is the weight of the column above it, of the masses of the nodes there and half its own:
+overburden ``W_i`` of a node is the weight of the column above it, of the masses of the nodes there and half its own,
+over the width ``h`` of a cell (half of it at a wall):
 
     W_i = g / h (m_i / 2 + sum_k>i m_k)
 
 which under level ground is ``gamma d`` from a cell below the surface on. Pore pressures depend on places and not on
 strains, so they neither stiffen the ground nor shorten its steps. ``r`` is that of the drawn water before the slide, by
 the same sum, so that the pore pressure is the drawn one there.
+
+Where water stands over the ground, it loads the pore water in full: the pressure is ``r_p W`` and that of the standing
+water on the surface. In excess of the standing water at the place itself (``standing_water``), which is larger by the
+uplift ``U`` of the ground above, it is
+
+    u_p = sum_i S_ip (r_p W_i - U_i)
 """
+
+import numpy as np
 
 from solver._jit import inlined, kernel
 from solver.constants import LANE_COUNT, STANDARD_GRAVITY
 from solver.filling import ground_of
-from solver.lanes import load, splat, store
+from solver.grid import PADDING
+from solver.lanes import lane_numbers, load, splat, store, where
 from solver.model import Model
 from solver.overburden import overburden
-from solver.particles import Particles
+from solver.particles import Particles, copy_particles
 from solver.sorting import fill_tiles, read_tiles
 from solver.spread import spread_each
+from solver.standing_water import LIGHTENING, share_below
 from solver.tiles import PORE_PRESSURE, allocate_tiles, place_of, put, take
 from solver.transfer import nine, weights_of
 from solver.water import NO_WATER
@@ -28,21 +39,28 @@ from solver.water import NO_WATER
 
 @inlined
 def find_overburden(grid, gravity):
-    """Set the weight of the ground above each node, under ``gravity`` in m/s2, from the masses of the nodes."""
-    factor = gravity / grid.cell_size
+    """Set the weight of the ground above each node, under ``gravity`` in m/s2, and its uplift, from nodal masses."""
     for column in range(0, grid.columns, LANE_COUNT):
-        above = splat(0.0)
+        i = lane_numbers() + float(column - PADDING)
+        is_wall = (i == 0.0) | (i == float(round(grid.width / grid.cell_size)))
+        factor = where(is_wall, 2.0, 1.0) * (gravity / grid.cell_size)
+        above = lifted = splat(0.0)
         for row in range(grid.rows - 1, -1, -1):
             node = row * grid.columns + column
+            share = share_below(grid.origin + row * grid.cell_size, 0.5 * grid.cell_size, grid)
             weight = factor * load(grid.mass, node)
+            lift = grid.lake[LIGHTENING] * share * weight
             store(grid.overburden, node, above + 0.5 * weight)
-            above = above + weight
+            store(grid.uplift, node, lifted + 0.5 * lift)
+            above, lifted = above + weight, lifted + lift
 
 
 @inlined
 def pore_pressure_of(p, row, column, w, grid):
-    """Return the pore pressure in Pa of a block of particles under the overburden of the nodes."""
-    return p.pore_pressure_ratio * nine(grid.overburden, row * grid.columns + column, grid.columns, w.sx, w.sy)
+    """Return the pore pressure in Pa of a block of particles under the ground above the nodes."""
+    start = row * grid.columns + column
+    overburden = nine(grid.overburden, start, grid.columns, w.sx, w.sy)
+    return p.pore_pressure_ratio * overburden - nine(grid.uplift, start, grid.columns, w.sx, w.sy)
 
 
 @kernel
@@ -65,12 +83,20 @@ def wet_ground_of(model: Model) -> Particles:
     ground = ground_of(model)
     if model.water == NO_WATER:
         return ground
-    drawn = model.water.pore_pressure(ground.x, ground.y, overburden(model, ground.x, ground.y))
+    pressure = model.water.pore_pressure(ground.x, ground.y, overburden(model, ground.x, ground.y))
+    drawn = pressure - model.water.standing_pressure(ground.y)
+    lifted = _pore_pressures(ground, model)
     ground.pore_pressure_ratio[:] = 1.0
-    grid = model.allocate_grid()
-    tiles = fill_tiles(ground, grid, allocate_tiles(ground.x.size))
-    find_pore_pressures(tiles, grid, STANDARD_GRAVITY)
-    read_tiles(tiles, ground)
-    ground.pore_pressure_ratio[:] = drawn / ground.pore_pressure
+    weight = _pore_pressures(ground, model) - lifted
+    ground.pore_pressure_ratio[:] = (drawn - lifted) / weight
     ground.pore_pressure[:] = drawn
     return ground
+
+
+def _pore_pressures(ground: Particles, model: Model) -> np.ndarray:
+    """Return the pore pressures (n,) in Pa that the particles have with their ratios."""
+    grid, found = model.allocate_grid(), copy_particles(ground)
+    tiles = fill_tiles(found, grid, allocate_tiles(ground.x.size))
+    find_pore_pressures(tiles, grid, STANDARD_GRAVITY)
+    read_tiles(tiles, found)
+    return found.pore_pressure

@@ -25,7 +25,7 @@ def spread_tile(tiles, tile, grid):
     while block >= 0:
         p = take(tiles, block)
         w = weights_of(p.x, p.y, row, column, grid)
-        sums = add_state(sums, w, load_of(p, own_mean_stress(p, p.pore_pressure)))
+        sums = add_state(sums, w, load_of(p, own_mean_stress(p, p.pore_pressure), grid))
         block = tiles.following[block]
     deposit_state(grid, row, column, sums)
 
@@ -46,7 +46,7 @@ def spread_tile_of_cells(tiles, tile, grid, scheme):
         if scheme.averages_plastic_strain:
             increment = read(grid.cell_plastic_strain, row, column, shares, grid)
             put(tiles, block, PLASTIC_STRAIN, p.plastic_strain + increment)
-        sums = add_state(sums, w, load_of(p, mean_stress))
+        sums = add_state(sums, w, load_of(p, mean_stress, grid))
         block = tiles.following[block]
     deposit_state(grid, row, column, sums)
 
@@ -92,7 +92,7 @@ def spread_lane(tiles, block, lane, grid):
     row, column = place_of(tiles.tile[block], grid)
     p = take(tiles, block)
     is_it = lane_numbers() == float(lane)
-    brought = load_of(p, own_mean_stress(p, p.pore_pressure))
+    brought = load_of(p, own_mean_stress(p, p.pore_pressure), grid)
     alone = Load(
         where(is_it, brought.mass, 0.0),
         where(is_it, brought.momentum_x, 0.0),
@@ -100,6 +100,7 @@ def spread_lane(tiles, block, lane, grid):
         where(is_it, brought.xx, 0.0),
         where(is_it, brought.yy, 0.0),
         where(is_it, brought.xy, 0.0),
+        where(is_it, brought.lift, 0.0),
     )
     w = weights_of(p.x, p.y, row, column, grid)
     deposit_state(grid, row, column, add_state(no_state(), w, alone))

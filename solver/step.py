@@ -36,6 +36,7 @@ from solver.pore_pressure import find_overburden, pore_pressure_of
 from solver.scheme import MUSL, USF, AnyScheme
 from solver.sorting import fill_tiles, read_tiles, sort_if_due
 from solver.spread import spread_all, spread_each
+from solver.standing_water import GRAVITY
 from solver.tiles import LEAVERS, PORE_PRESSURE, Tiles, allocate_tiles, place_of, put, take
 from solver.transfer import add_momentum, deposit_momentum, interpolate, no_momentum, weights_of
 
@@ -105,6 +106,7 @@ def take_steps(tiles, grid, work, laws, scheme, gravity, gravity_rate, dt, steps
     are_new : bool
         The tiles have just been filled, and the grid does not know of the particles yet.
     """
+    grid.lake[GRAVITY] = gravity
     if are_new:
         spread_all(tiles, grid, scheme)
     taken = 0
@@ -114,6 +116,7 @@ def take_steps(tiles, grid, work, laws, scheme, gravity, gravity_rate, dt, steps
         g = gravity + gravity_rate * (taken + 0.5) * dt
         solve_momentum(grid, g, scheme.damping, dt)
         if grid.has_water:
+            grid.lake[GRAVITY] = g
             find_overburden(grid, g)
         are_all_there = accelerate(tiles, grid, work, scheme, g, dt) and deform(
             tiles, grid, work.ledger, laws, scheme, g, dt

@@ -37,15 +37,17 @@ def stopping_distance(speed: float, friction: float) -> float:
 
 
 def least_friction(particles: Particles, surface: Surface) -> float:
-    """Return what resists particles at residual strength over their weight: the larger of tan(phi) and c / (gamma H).
+    """Return what resists particles at residual strength over their weight.
 
+    That is the larger of (1 - r) tan(phi) and c / (gamma H), with r the share of the weight that pore pressure carries.
     Ground that flows is at most as thick as the slope is high, H, so its cohesion is at least so much of its weight.
     The smaller of both is left for the slope behind, which may still push. Areas are those before the slide, as grains
     that part gain area.
     """
     unit_weight = STANDARD_GRAVITY * particles.mass.sum() / particles.volume.sum()
     cohesion, angle = particles.cohesion_residual.mean(), particles.friction_angle_residual.mean()
-    return float(max(np.tan(angle), cohesion / (unit_weight * surface.relief)))
+    effective = 1.0 - particles.pore_pressure_ratio.mean()
+    return float(max(effective * np.tan(angle), cohesion / (unit_weight * surface.relief)))
 
 
 def farther_advance(history: MarchHistory, surface: Surface, criteria: SlideCriteria) -> float:

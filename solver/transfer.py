@@ -10,6 +10,7 @@ from solver._jit import inlined
 from solver.basis import weight_and_gradient
 from solver.constants import LANE_COUNT
 from solver.lanes import lane_numbers, load, spill_1, spill_2, splat, store, up_1, up_2
+from solver.standing_water import GRAVITY, displaced_mass
 
 
 class Weights(NamedTuple):
@@ -151,10 +152,11 @@ class Load(NamedTuple):
     xx: float  # N: minus volume times the stress that pushes the nodes
     yy: float
     xy: float
+    lift: float  # N/m, of standing water, upward
 
 
 @inlined
-def load_of(particles, mean_stress):
+def load_of(particles, mean_stress, grid):
     """Return the load of particles, with ``mean_stress`` (Pa) as the in-plane mean of their stress."""
     half_difference = 0.5 * (particles.stress_xx - particles.stress_yy)
     return Load(
@@ -164,6 +166,7 @@ def load_of(particles, mean_stress):
         -particles.volume * (mean_stress + half_difference),
         -particles.volume * (mean_stress - half_difference),
         -particles.volume * particles.stress_xy,
+        grid.lake[GRAVITY] * displaced_mass(particles, grid),
     )
 
 
@@ -171,7 +174,7 @@ def load_of(particles, mean_stress):
 def add_load(sums, w, j, brought):
     """Return the sums of the ``j``-th row of nodes with what particles bring.
 
-    ``m_i += S_ip m_p``, ``(mv)_i += S_ip m_p v_p``, ``f_i -= V_p sigma_p . grad S_ip``.
+    ``m_i += S_ip m_p``, ``(mv)_i += S_ip m_p v_p``, ``f_i -= V_p sigma_p . grad S_ip``, and ``S_ip`` of the lift.
     """
     s, g = w.sy[j], w.gy[j]
     return State(
@@ -181,7 +184,7 @@ def add_load(sums, w, j, brought):
         ),
         Momentum(
             plus(plus(sums.force.x, w.gx, s * brought.xx), w.sx, g * brought.xy),
-            plus(plus(sums.force.y, w.gx, s * brought.xy), w.sx, g * brought.yy),
+            plus(plus(sums.force.y, w.gx, s * brought.xy), w.sx, g * brought.yy + s * brought.lift),
         ),
     )
 

@@ -16,22 +16,29 @@ UNIT_WEIGHT = 9810.0  # N/m3
 
 
 class Water(NamedTuple):
-    """A water table, or a ratio of pore pressure to overburden where there is none."""
+    """A water table, or a ratio of pore pressure to overburden where there is none; and standing water."""
 
     table: Surface | None = None
     ratio: float = 0.0  # r_u
     unit_weight: float = UNIT_WEIGHT  # N/m3
+    level: float | None = None  # m, of the water that stands where the table is above the ground
 
     def height_at(self, x: np.ndarray) -> np.ndarray:
         """Return the elevation in m of the table above each ``x``; below all ground without one."""
         return np.full_like(x, -np.inf) if self.table is None else self.table.height_at(x)
 
     def pore_pressure(self, x: np.ndarray, y: np.ndarray, overburden: np.ndarray) -> np.ndarray:
-        """Return the pore pressure in Pa at places ``x``, ``y`` (m) under an ``overburden`` (Pa)."""
+        """Return the pore pressure in Pa at places ``x``, ``y`` (m) of the ground under an ``overburden`` (Pa)."""
         if self.table is None:
             return self.ratio * overburden
         column: np.ndarray = self.unit_weight * np.maximum(self.height_at(x) - y, 0.0)
         return column
+
+    def standing_pressure(self, y: np.ndarray) -> np.ndarray:
+        """Return the pressure in Pa of standing water at elevations ``y`` (m), were it to reach everywhere."""
+        level = -np.inf if self.level is None else self.level
+        pressure: np.ndarray = self.unit_weight * np.maximum(level - y, 0.0)
+        return pressure
 
 
 NO_WATER = Water()

@@ -11,7 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from solver.grid import PADDING
 from solver.particles import copy_particles
+from solver.standing_water import DENSITY, LEVEL, LIGHTENING
 
 EMPTY_NODE = 1e-12  # kg/m: a node with less mass stands still
 EMPTY_CELL = 1e-12  # m2: a cell with less volume has no mean
@@ -138,7 +140,17 @@ def between_walls(vectors, grid):
     return vectors * np.stack([grid.free_x.ravel(), grid.free_y.ravel()], axis=1)
 
 
-def spread(particles, grid, method):
+def below_lake(y, half_height, grid):
+    """Return the share of ``y +- half_height`` that lies below the level of the lake."""
+    return np.clip(0.5 + 0.5 * (grid.lake[LEVEL] - y) / half_height, 0.0, 1.0)
+
+
+def displaced_mass(particles, grid):
+    """Return the mass of the water of the lake in the place of the particles, ``(n,)`` in kg/m."""
+    return grid.lake[DENSITY] * particles.volume * below_lake(particles.y, grid.half_length * grid.cell_size, grid)
+
+
+def spread(particles, grid, method, gravity):
     """Line 1: return the state of the nodes, of the total stress, averaged over the cells where the method does."""
     s = weights_at(particles, grid)
     xx, yy, xy = (
@@ -152,6 +164,7 @@ def spread(particles, grid, method):
         xx, yy = xx + change, yy + change
     volume, mass = particles.volume, particles.mass
     force = [s.x @ (volume * xx) + s.y @ (volume * xy), s.x @ (volume * xy) + s.y @ (volume * yy)]
+    force[1] -= s.s @ (gravity * displaced_mass(particles, grid))
     momentum = [s.s @ (mass * particles.velocity_x), s.s @ (mass * particles.velocity_y)]
     return Nodes(s.s @ mass, np.stack(momentum, axis=1), -np.stack(force, axis=1))
 
@@ -173,10 +186,17 @@ def accelerate(particles, s, acceleration, velocity, flip_fraction, dt):
 
 
 def feel_overburden(particles, s, mass, grid, gravity):
-    """Set the pore pressures, in place: of the weight above each node, with half its own, over the width of a cell."""
-    weight = gravity * mass.reshape(grid.rows, grid.columns) / grid.cell_size
-    overburden = np.cumsum(weight[::-1], axis=0)[::-1] - 0.5 * weight
-    particles.pore_pressure[:] = particles.pore_pressure_ratio * (s.T @ overburden.ravel())
+    """Set the pore pressures, in place: of the weight above each node, with half its own."""
+
+    def above(weight):
+        return s.T @ (np.cumsum(weight[::-1], axis=0)[::-1] - 0.5 * weight).ravel()
+
+    width = np.full(grid.columns, grid.cell_size)
+    width[[PADDING, PADDING + round(grid.width / grid.cell_size)]] /= 2.0
+    weight = gravity * mass.reshape(grid.rows, grid.columns) / width
+    y = grid.origin + grid.cell_size * np.arange(grid.rows)
+    lift = grid.lake[LIGHTENING] * weight * below_lake(y, 0.5 * grid.cell_size, grid)[:, None]
+    particles.pore_pressure[:] = particles.pore_pressure_ratio * above(weight) - above(lift)
 
 
 def move(particles, displacement):
@@ -256,10 +276,10 @@ def reference_step(start, grid, point_law, method, gravity, gravity_rate, dt):
     dt : float
         In s.
     """
-    particles = copy_particles(start)
+    particles, gravity_before = copy_particles(start), gravity
     gravity += 0.5 * gravity_rate * dt
 
-    before = spread(particles, grid, method)  # 1
+    before = spread(particles, grid, method, gravity_before)  # 1
     acceleration, velocity = solve(before, grid, method, gravity, dt)  # 2
     s = weights_at(particles, grid).s
     if grid.has_water:
@@ -270,12 +290,13 @@ def reference_step(start, grid, point_law, method, gravity, gravity_rate, dt):
         move(particles, displacement)  # 6
     deforming = velocity if method.stress_update == "usl" else remap(particles, grid)  # 4
     increments = displacement_gradients(particles, deforming, grid, method, dt)
+    displaced_before = displaced_mass(start, grid)
     work = deform(particles, increments, point_law)  # 5
     if method.stress_update != "usf":
         move(particles, displacement)  # 6
-    nodes = spread(particles, grid, method)  # 1 of the next step
+    nodes = spread(particles, grid, method, gravity)  # 1 of the next step
     if method.has_internal_length:
         increment = particles.plastic_strain - start.plastic_strain
         particles.plastic_strain[:] = start.plastic_strain + neighbourhood_average(increment, particles, grid)
-    fall = np.sum(particles.mass * (start.y - particles.y))
+    fall = np.sum((particles.mass - displaced_before) * (start.y - particles.y))
     return Step(particles, nodes, acceleration, velocity, before.mass, work, gravity * fall)

@@ -17,11 +17,12 @@ from solver.particles import copy_particles
 from solver.scheme import STRESS_UPDATES, scheme_of
 from solver.softening import Strength
 from solver.step import advance, allocate_workspace
-from solver.water import Water
+from solver.water import NO_WATER, Water
 
 MODEL = small_model()
 MID_SLIDE = 0.6  # s
 DT = 2e-3  # s
+LAKE = 2.2  # m, of standing water, above the toe and below the crest
 INTERNAL_LENGTH = 2.0  # m: four cells, of which pooling and the band supply 2.4
 TOLERANCE = 1e-12  # of the largest magnitude of a field
 BASES = ("linear", "gimp", "bspline")
@@ -46,7 +47,7 @@ def mid_slide():
 def model_with(basis, step, internal_length, start):
     """Return the slope's model with this basis and way to take a step, and with water if ``start`` has any."""
     method = Method(basis, step.stress_update, "cell-average" if step.has_cell_averages else "none", step.flip_fraction)
-    water = Water(ratio=float(start.pore_pressure_ratio.max()))
+    water = Water(ratio=0.5, level=LAKE) if start.pore_pressure.any() else NO_WATER
     return MODEL._replace(method=method, internal_length=internal_length, water=water)
 
 

@@ -42,12 +42,13 @@ def test_friction_stops_a_block_where_coulomb_says():
     assert stopping_distance(2.0, 0.0) == np.inf
 
 
-@pytest.mark.parametrize(("angle", "cohesion"), [(5.0, 1e3), (0.0, 6e3)])
-def test_residual_strength_resists_by_its_friction_or_its_cohesion(start, angle, cohesion):
-    """5 degrees are 0.0875 of the weight, and 6 kPa under 3 m of 2000 kg/m3 are 0.102."""
+@pytest.mark.parametrize(("angle", "ratio", "cohesion"), [(5.0, 0.0, 1e3), (9.925, 0.5, 1e3), (0.0, 0.0, 6e3)])
+def test_residual_strength_resists_by_its_friction_or_its_cohesion(start, angle, ratio, cohesion):
+    """5 degrees are 0.0875 of the weight, 9.9 on half of it, and 6 kPa under 3 m of 2000 kg/m3 are 0.102."""
     soil = start._replace(
         cohesion_residual=np.full(start.x.size, cohesion),
         friction_angle_residual=np.full(start.x.size, np.radians(angle)),
+        pore_pressure_ratio=np.full(start.x.size, ratio),
     )
     assert least_friction(soil, MODEL.surface) == pytest.approx(0.0875 if angle else 0.102, rel=2e-3)
 

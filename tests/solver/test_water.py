@@ -7,7 +7,9 @@ from small_slope import small_model, with_strength
 from solver.in_situ import in_situ_state
 from solver.march import March
 from solver.overburden import overburden
+from solver.particles import Particles, allocate_particles
 from solver.pore_pressure import wet_ground_of
+from solver.step import advance, allocate_workspace
 from solver.surface import Surface
 from solver.water import Water
 
@@ -56,6 +58,70 @@ def test_dry_ground_is_ground_with_a_ratio_of_zero():
     dry, wet = (in_situ_state(MODEL._replace(water=water)) for water in (Water(), Water(unit_weight=1.0)))
     for one, other in zip(dry, wet, strict=True):
         np.testing.assert_array_equal(one, other)
+
+
+def lake_model(level, surface=MODEL.surface):
+    """Return a saturated slope in a lake of that level (m), with the water table at the surface above the lake."""
+    elevation = np.maximum(surface.y, level)
+    water = Water(Surface(surface.x, elevation), level=level)
+    return MODEL._replace(surface=surface, materials=(SATURATED,), water=water)
+
+
+def test_a_slope_under_water_is_one_of_its_buoyant_weight():
+    """Archimedes: effective stresses are those of dry ground that weighs ``gamma_sat - gamma_w``."""
+    under_water = in_situ_state(lake_model(level=6.0))
+    buoyant = MODEL.materials[0]._replace(density=2200.0 - 9810.0 / 9.81)
+    dry = in_situ_state(MODEL._replace(materials=(buoyant,)))
+    size = np.abs(dry.stress_yy).max()
+    for name in ("stress_xx", "stress_yy", "stress_zz", "stress_xy"):
+        np.testing.assert_allclose(getattr(under_water, name), getattr(dry, name), atol=2e-3 * size)
+    np.testing.assert_allclose(under_water.pore_pressure, 0.0, atol=2e-3 * size)
+
+
+def test_a_body_in_water_sinks_by_its_weight_less_that_of_the_water():
+    """Archimedes: ``a = g (1 - rho_w / rho)`` under water, g above it, and half the lift where it is half submerged."""
+    y = np.array([1.0, 3.0, 5.0])
+    body = allocate_particles(np.full(3, 2.25), y, 0.0625, 2200.0)
+    model = lake_model(level=3.0)
+    grid, work = model.allocate_grid(), allocate_workspace(3)
+    assert advance(body, grid, work, model.laws, model.scheme, 9.81, 0.0, 1e-4, 1) == 1
+    np.testing.assert_allclose(body.velocity_y, -9.81e-4 * (1.0 - np.array([1.0, 0.5, 0.0]) / 2.2), rtol=1e-9)
+
+
+def test_pressure_under_a_lake_is_that_of_the_water_column():
+    """``u = gamma_w (z - y)``, of which the particles carry what the table is above the lake."""
+    model = lake_model(level=2.0)
+    ground = wet_ground_of(model)
+    column = model.water.height_at(ground.x) - ground.y
+    total = ground.pore_pressure + model.water.standing_pressure(ground.y)
+    np.testing.assert_allclose(total, 9810.0 * column, atol=1e-9)
+
+
+def test_ground_that_slides_under_water_carries_the_load_of_the_lake_in_its_pores():
+    """Undrained: its own ratio of its weight, and the lake on its surface, so that the effective stress stays."""
+    model = lake_model(level=2.0)
+    ground = wet_ground_of(model)
+    upper = ground.y > 3.0
+    ground.y[:] -= 2.5
+    ground.velocity_y[:] = 0.0
+    alone = Particles(*(array[upper] for array in ground))
+    before = alone.pore_pressure.copy()
+    grid, work = model.allocate_grid(), allocate_workspace(alone.x.size)
+    advance(alone, grid, work, model.laws, model.scheme, 9.81, 0.0, 1e-6, 1)
+    own_depth = 4.0 - (alone.y + 2.5)
+    is_inside = (alone.x < 2.0) & (own_depth > 0.25)
+    assert is_inside.sum() == 24
+    expected = before - 9810.0 * own_depth
+    np.testing.assert_allclose(alone.pore_pressure[is_inside], expected[is_inside], atol=0.05 * 9810.0)
+
+
+@pytest.mark.parametrize("level", [1.5, 6.0])
+def test_the_work_of_a_lake_is_in_the_ledger(level):
+    model = lake_model(level)
+    march = March(model, with_strength(in_situ_state(model), cohesion=1e3))
+    assert march.advance_to(2.0) is None
+    assert march.moment().runout > 0.3
+    assert abs(march.energy.error()) < 0.005
 
 
 @pytest.fixture(scope="module")

@@ -12,6 +12,7 @@ from driver import Row
 from quasi_static import PRANDTL, bearing_pressure, factor_of_safety, quasi_static_model
 
 from solver.surface import Surface, slope_surface
+from solver.water import Water
 
 UNIT_WEIGHT = 20e3
 
@@ -74,7 +75,23 @@ def test_prandtl_strip_load_converges():
     assert 2.0 * nominal_fine - nominal_coarse == pytest.approx(PRANDTL, rel=0.01)
 
 
-SLOPES = [(dawson, 10, 1.0, 0.95), (griffiths_lane, 10, 1.38, 1.30), (ma2023, 15, 0.734, 0.69)]
+def bishop_morgenstern(cells, locking, first):
+    """4:1 with a pore pressure ratio of 0.35: 1.97 - 1.78 r_u by the coefficients of Bishop and Morgenstern (1960).
+
+    ``c / gamma H`` is 0.025, and firm ground lies a quarter of the height below the toe.
+    """
+    height, unit_weight = 31.0, 16e3
+    surface = slope_surface(height, math.atan(0.25), 40.0, 40.0, 0.25 * height)
+    model = quasi_static_model(surface, height / cells, unit_weight, locking)._replace(water=Water(ratio=0.35))
+    return factor_of_safety(model, 0.025 * unit_weight * height, math.radians(20.0), first)
+
+
+SLOPES = [
+    (dawson, 10, 1.0, 0.95),
+    (griffiths_lane, 10, 1.38, 1.30),
+    (ma2023, 15, 0.734, 0.69),
+    (bishop_morgenstern, 15, 1.97 - 1.78 * 0.35, 1.28),
+]
 
 
 @pytest.mark.parametrize(("slope", "cells", "expected", "first"), SLOPES)
@@ -120,6 +137,7 @@ def rows():
             ("Slope of Dawson et al., factor of safety", dawson, 10, 1.0, 0.95),
             ("Slope of Griffiths and Lane, factor of safety", griffiths_lane, 10, 1.38, 1.30),
             ("Slope of `ma2023`, factor of safety", ma2023, 15, 0.734, 0.69),
+            ("Slope with r_u = 0.35, factor of safety", bishop_morgenstern, 15, 1.97 - 1.78 * 0.35, 1.28),
         ):
             factor = slope(cells, locking, first)
             table.append(load_row(name, locking, exact, factor if slope is vertical_cut else factor / exact))

@@ -1,0 +1,39 @@
+"""Water that stands above the ground, as a lake over the toe of a slope: Archimedes' lift of what is below its level.
+
+The pressure of standing water, ``gamma_w (z - y)``, acts on the surface of the ground and in its pores alike. Stresses
+and pore pressures of particles are in excess of it, so that the surface stays free, and what is left of it is its
+gradient: each particle loses the weight of the water that it displaces. A particle that crosses the level is submerged
+by the share of its domain below. Waves, and the drag of water on ground that moves through it, are left out.
+"""
+
+import numpy as np
+
+from solver._jit import inlined
+from solver.constants import STANDARD_GRAVITY
+from solver.water import Water
+
+LEVEL, DENSITY, GRAVITY, LIGHTENING = range(4)
+"""Entries of ``Grid.lake``: m; kg/m3 of the water; m/s2 now; density of the water over that of the ground."""
+
+NO_LAKE = np.array([-1e9, 0.0, STANDARD_GRAVITY, 0.0])
+
+
+def lake_of(water: Water, density: float) -> np.ndarray:
+    """Return the entries of ``Grid.lake`` for ground of a ``density`` in kg/m3."""
+    if water.level is None:
+        return NO_LAKE
+    of_water = water.unit_weight / STANDARD_GRAVITY
+    return np.array([water.level, of_water, STANDARD_GRAVITY, of_water / density])
+
+
+@inlined
+def share_below(y, half_height, grid):
+    """Return the share of ``y +- half_height`` (m) below the level of the lake."""
+    return min(max((grid.lake[LEVEL] - y) * (0.5 / half_height) + 0.5, 0.0), 1.0)
+
+
+@inlined
+def displaced_mass(particles, grid):
+    """Return the mass in kg/m of the standing water in the place of particles."""
+    share = share_below(particles.y, grid.half_length * grid.cell_size, grid)
+    return grid.lake[DENSITY] * particles.volume * share
