@@ -5,13 +5,13 @@ is cut there.
 """
 
 from collections.abc import Sequence
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from campaign.fields.properties import PROPERTIES, SoilProperty, marginals
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.polylines import across, lower_of
 from campaign.scene.scene import Scene
 from campaign.scene.sections import Layer
 from solver.surface import Surface
@@ -52,31 +52,7 @@ def interfaces_of(scene: Scene) -> tuple[Surface, ...]:
 def _drawn_top(layer: Layer, surface: Surface) -> Surface:
     if layer.depth is not None:
         return Surface(surface.x, surface.y - layer.depth)
-    x, y = np.array(layer.top, dtype=float).T.copy()
-    return Surface(x, y) if x.size > 1 else Surface(np.array([0.0, surface.width]), np.repeat(y, 2))
-
-
-def lower_of(one: Surface, other: Surface) -> Surface:
-    """Return the polyline that follows the lower one of two, over the width of the first."""
-    places = np.union1d(one.x, other.x)
-    places = places[(places >= one.x[0]) & (places <= one.width)]
-    x: list[float] = []
-    y: list[float] = []
-    for left, right in pairwise(places.tolist()):
-        begin, end = (np.array([limits(each, left)[1], limits(each, right)[0]]) for each in (one, other))
-        gap = begin - end
-        shares = [0.0, 1.0] if gap[0] * gap[1] >= 0.0 else [0.0, float(gap[0] / (gap[0] - gap[1])), 1.0]
-        for share in shares:
-            x.append(right if share == 1.0 else left + share * (right - left))
-            y.append(float(min(each[0] + share * (each[1] - each[0]) for each in (begin, end))))
-    return Surface(np.array(x), np.array(y))
-
-
-def limits(line: Surface, x: float) -> tuple[float, float]:
-    """Return the elevations in m of a line just left and just right of a place; they differ on a vertical face."""
-    mirrored = Surface(-line.x[::-1], line.y[::-1])
-    left, right = mirrored.height_at(np.array([-x])), line.height_at(np.array([x]))
-    return float(left[0]), float(right[0])
+    return across(layer.top or (), surface.width)
 
 
 def layer_at(interfaces: Sequence[Surface], x: Array, y: Array) -> NDArray[np.intp]:

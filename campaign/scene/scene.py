@@ -9,7 +9,7 @@ from campaign.scene.ground_surface import surface_of
 from campaign.scene.layer_soil import soils_of, written_out
 from campaign.scene.sections import SceneFile, Soil
 
-ADDED_LATER = {"soil.law": "mohr-coulomb"}
+ADDED_LATER = {"soil.law": "mohr-coulomb", "water.unit_weight": 9810.0}
 """Values of keys that older scenes do not have; with these a scene is what it was before."""
 
 NOT_IDENTITY = {"slide": {"front"}}
@@ -43,7 +43,7 @@ class Scene(SceneFile):
 
     def identity(self) -> dict[str, Any]:
         """Return, by dotted key, every SI value that decides what realization k is; ready for JSON."""
-        told = {"geometry", "soil", "field", "numerics", "slide", "receptor"}
+        told = {"geometry", "soil", "water", "field", "numerics", "slide", "receptor"}
         sections = self.model_dump(mode="json", include=told, exclude=NOT_IDENTITY) | {"layer": written_out(self)}
         values = flatten(sections) | {"campaign.seed": self.campaign.seed, "slide.front_area": self.front_area}
         return {key: value for key, value in values.items() if value is not None and value != ADDED_LATER.get(key)}

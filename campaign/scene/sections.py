@@ -94,10 +94,14 @@ class Softening(Section):
 
 
 class Soil(Section):
-    """Constitutive law, unit weight in N/m3, Young's modulus in Pa, dilation angle in rad, and strength."""
+    """Constitutive law, unit weight in N/m3, Young's modulus in Pa, dilation angle in rad, and strength.
+
+    `saturated_unit_weight` is that below the water table.
+    """
 
     law: Literal["mohr-coulomb", "drucker-prager", "tresca"] = "mohr-coulomb"
     unit_weight: Annotated[UnitWeight, POSITIVE]
+    saturated_unit_weight: Annotated[UnitWeight, POSITIVE] | None = None
     young_modulus: PositivePressure
     poisson_ratio: Annotated[float, must("be at least 0 and below 0.5", lambda ratio: 0.0 <= ratio < 0.5)]
     dilation_angle: Annotated[Angle, NOT_NEGATIVE] = 0.0
@@ -136,6 +140,18 @@ class Layer(PartlySoil):
     top: Top | None = None
     depth: PositiveLength | None = None
     field: Literal["shared", "own"] = "shared"
+
+
+class GroundWater(Section):
+    """Water in the ground: a table, as points (x, elevation) in m, or the ratio of pore pressure to overburden.
+
+    `level` is the elevation in m of water that stands over ground below it, and of the table where that is left out.
+    """
+
+    table: Top | None = None
+    level: PositiveLength | None = None
+    r_u: Annotated[float, must("be at least 0 and at most 0.9", lambda ratio: 0.0 <= ratio <= 0.9)] | None = None
+    unit_weight: Annotated[UnitWeight, POSITIVE] = 9810.0
 
 
 CrossCorrelation = Annotated[float, must("lie between -1 and 1, both excluded", lambda rho: -1.0 < rho < 1.0)]
@@ -254,6 +270,7 @@ class SceneFile(Section):
     geometry: Geometry
     soil: Soil
     layer: Annotated[tuple[Layer, ...], Field(strict=False), listed("layer", "layer")] = ()
+    water: GroundWater = GroundWater()
     field: RandomField
     numerics: Numerics
     slide: Slide = Slide()

@@ -26,12 +26,12 @@ from campaign.simulation.scene_sampler import strength_sampler
 from campaign.simulation.solver_model import Array, column_edges, model_of, output_times
 from campaign.terminal import say
 from solver.compile_cache import telling_of_compilation
-from solver.filling import ground_of
 from solver.in_situ import NotSettledError
 from solver.march import March
 from solver.model import Model
 from solver.observables import deposit_surface
 from solver.particles import Particles, copy_particles
+from solver.pore_pressure import wet_ground_of
 from solver.surface import Surface
 
 if TYPE_CHECKING:
@@ -249,7 +249,7 @@ def prepare(scene: Scene, directory: Path | None = None) -> Ground:
         If the sampler cannot draw the scene's field.
     """
     model = model_of(scene)
-    lattice = ground_of(model)
+    lattice = wet_ground_of(model)
     is_ramp = scene.numerics.gravity == "ramp"
     with telling_of_compilation(lambda: say(COMPILING)):
         settled = _loaded(model, is_ramp, directory)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.ground_water import water_of
 from campaign.scene.layers import interfaces_of, layer_scenes
 from campaign.scene.scene import Scene
 from campaign.scene.softening import softening_rate
@@ -36,6 +37,7 @@ def model_of(scene: Scene) -> Model:
         ramp_time=numerics.ramp_time if numerics.gravity == "ramp" else 0.0,
         criteria=SlideCriteria(slide.displaced, slide.failed, scene.front_area, slide.front),
         interfaces=interfaces_of(scene),
+        water=water_of(scene),
     )
 
 
@@ -44,7 +46,9 @@ def material_of(scene: Scene) -> Material:
     soil = scene.soil
     softening = Softening(softening_rate(scene), soil.softening.law == "linear")
     constants = Constants(soil.young_modulus, soil.poisson_ratio, soil.dilation_angle, softening)
-    return Material(soil.unit_weight / STANDARD_GRAVITY, soil.poisson_ratio, make_law(soil.law, constants))
+    saturated = None if soil.saturated_unit_weight is None else soil.saturated_unit_weight / STANDARD_GRAVITY
+    law = make_law(soil.law, constants)
+    return Material(soil.unit_weight / STANDARD_GRAVITY, soil.poisson_ratio, law, saturated)
 
 
 def output_times(end_time: float, interval: float) -> Array:
