@@ -14,6 +14,7 @@ from campaign.scene.cost import (
     with_more_of_an_input,
 )
 from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, TYPICAL_SLIDE, FirstLook
+from campaign.scene.ground_water import water_words
 from campaign.scene.layer_table import HEADINGS, layer_rows, told_by_layer
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.outlook import may_slide, outlook
@@ -33,6 +34,7 @@ def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
         "ground": _ground(look),
         **layers,
         "toe": _toe(scene, look),
+        "water": water_words(scene),
         "factor of safety": _factors(look),
         "softening": _softenings(scene),
         "what to expect": outlook(look, is_brittle(scene, look.height)),
@@ -43,7 +45,11 @@ def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
         "memory": f"About {data_size(rank_bytes(scene) + size.least)} for each rank (process); the results take "
         f"{data_size(dataset_bytes(scene))}.",
     }
-    lines = [paragraph(heading, text, MARGIN) if heading != "layers" else text for heading, text in paragraphs.items()]
+    lines = [
+        paragraph(heading, text, MARGIN) if heading != "layers" else text
+        for heading, text in paragraphs.items()
+        if text
+    ]
     return "\n".join([f"{scene.title}: a valid scene.", *lines])
 
 

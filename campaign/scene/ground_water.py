@@ -1,10 +1,21 @@
 """The ground water that a scene describes."""
 
+import numpy as np
+from numpy.typing import NDArray
+
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.layers import interfaces_of, thickness_above
 from campaign.scene.polylines import across, lower_of, upper_of
 from campaign.scene.scene import Scene
 from solver.surface import Surface
 from solver.water import NO_WATER, Water
+
+Array = NDArray[np.float64]
+
+PLACES = 401
+"""Across the section, at which water is measured."""
+
+AFTERWARDS = "In a slide each part of the ground keeps its share: it does not drain."
 
 
 def water_of(scene: Scene) -> Water:
@@ -26,3 +37,41 @@ def table_of(scene: Scene) -> Surface | None:
         return table
     standing = across(((0.0, water.level),), ground.width)
     return standing if table is None else upper_of(table, standing)
+
+
+def water_words(scene: Scene) -> str | None:
+    """Say where water is, how much of the weight above it carries, and what becomes of it; None without water."""
+    water, ground, table = scene.water, surface_of(scene.geometry), table_of(scene)
+    if table is None:
+        ratio = f"Pore pressure is r_u = {water.r_u} of the weight above, everywhere."
+        return f"{ratio} {AFTERWARDS}" if water.r_u else None
+    x = _places(ground)
+    in_ground = np.minimum(table.height_at(x), ground.height_at(x))
+    sentences = [
+        f"The table is at elevations from {in_ground.min():.4g} m to {in_ground.max():.4g} m; its pore pressure "
+        f"carries at most {most_carried(scene):.0%} of the weight above."
+    ]
+    if water.level is not None:
+        depth = water.level - float(ground.y.min())
+        sentences.append(
+            f"Water stands at {water.level:.4g} m, at most {depth:.3g} m deep: it lifts what is below its level, and "
+            "has neither waves nor drag."
+        )
+    return " ".join([*sentences, AFTERWARDS])
+
+
+def most_carried(scene: Scene) -> float:
+    """Return the largest share of the weight above that the pore pressure carries, at the base; without lakes."""
+    ground, water = surface_of(scene.geometry), water_of(scene)
+    interfaces, x = interfaces_of(scene), _places(ground)
+    below = np.clip(water.height_at(x), 0.0, ground.height_at(x))
+    whole, moist = (thickness_above(ground, interfaces, x, y) for y in (np.zeros_like(x), below))
+    weight = np.zeros_like(x)
+    for soil, all_of_it, above in zip(scene.soils, whole, moist, strict=True):
+        saturated = soil.saturated_unit_weight or soil.unit_weight
+        weight += soil.unit_weight * above + saturated * (all_of_it - above)
+    return float(np.max(water.unit_weight * below / weight))
+
+
+def _places(ground: Surface) -> Array:
+    return np.linspace(0.0, ground.width, PLACES)

@@ -43,7 +43,7 @@ def lower_of(one: Surface, other: Surface) -> Surface:
     x: list[float] = []
     y: list[float] = []
     for left, right in pairwise(places.tolist()):
-        begin, end = (np.array([limits(each, left)[1], limits(each, right)[0]]) for each in (one, other))
+        begin, end = (np.array([_limits(each, left)[1], _limits(each, right)[0]]) for each in (one, other))
         gap = begin - end
         shares = [0.0, 1.0] if gap[0] * gap[1] >= 0.0 else [0.0, float(gap[0] / (gap[0] - gap[1])), 1.0]
         for share in shares:
@@ -52,7 +52,7 @@ def lower_of(one: Surface, other: Surface) -> Surface:
     return Surface(np.array(x), np.array(y))
 
 
-def limits(line: Surface, x: float) -> tuple[float, float]:
+def _limits(line: Surface, x: float) -> tuple[float, float]:
     """Return the elevations in m of a line just left and just right of a place; they differ on a vertical face."""
     mirrored = Surface(-line.x[::-1], line.y[::-1])
     left, right = mirrored.height_at(np.array([-x])), line.height_at(np.array([x]))

@@ -17,6 +17,7 @@ from campaign.report.figures.section import SKY, Section, drawn_layers
 from campaign.report.figures.style import BLACK, BLUE, GREY, ORANGE, WIDTH, Illustration, in_style, letter, new_figure
 from campaign.scene import Scene
 from campaign.scene.first_look import FirstLook, look_at
+from campaign.scene.ground_water import water_of
 from campaign.scene.layers import interfaces_of
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.simulation.ground import strengths_of
@@ -61,6 +62,7 @@ def scene_section(scene: Scene, look: FirstLook, strengths: Strengths, realizati
         scene.receptor,
         drawn_layers(scene),
         interfaces_of(scene),
+        water_of(scene),
     )
     scale = SHARE * WIDTH / section.right
     # Text may go on beside the section, where the panels below have the bars of their colours.

@@ -8,20 +8,28 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from campaign.report.figures.style import BLACK, GREY, ORANGE
+from campaign.report.figures.style import BLACK, GREY, ORANGE, WATER
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.ground_water import water_of
 from campaign.scene.layers import interfaces_of, layer_names
 from campaign.scene.sections import Receptor
 from campaign.simulation.solver_model import Array
 from solver.grid import particle_spacing
 from solver.surface import Surface
+from solver.water import NO_WATER, Water
 
 MARGIN = 0.08
 """Of the width shown, beyond the longest run-out."""
 
 SKY = 1.12
 """Of the highest ground: the height shown."""
+
+PLACES = 400
+"""Along a water table that is drawn."""
+
+SIGN = 0.12
+"""Share of the width at which a water table has its sign."""
 
 ABOVE_DEPOSIT = 0.65
 """Of the height of the slope: where run-outs are written."""
@@ -49,6 +57,8 @@ class Section:
         Names of the layers from the surface down, if there are several.
     interfaces : sequence of Surface
         The tops of all but the first.
+    water : Water
+        Its table and standing water are drawn.
     """
 
     surface: Surface
@@ -58,6 +68,7 @@ class Section:
     receptors: Sequence[Receptor] = ()
     layers: Sequence[str] = ()
     interfaces: Sequence[Surface] = ()
+    water: Water = NO_WATER
 
     @property
     def corners(self) -> list[tuple[float, float]]:
@@ -71,6 +82,7 @@ class Section:
 
     def frame(self, axes: Axes) -> None:
         """Set equal scales, draw the ground before the slide, and mark the receptors."""
+        draw_water(axes, self.surface, self.water)
         axes.plot(self.surface.x, self.surface.y, color=BLACK, linestyle=(0, (4, 2)), linewidth=0.9)
         for top in self.interfaces:
             axes.plot(top.x, self._in_ground(top), color=BLACK, linestyle=(0, (1, 2)), linewidth=0.8)
@@ -115,6 +127,18 @@ def drawn_layers(scene: Scene) -> Sequence[str]:
     return layer_names(scene) if scene.layer else ()
 
 
+def draw_water(axes: Axes, ground: Surface, water: Water) -> None:
+    """Draw the water table with its sign, a triangle, and water that stands over the ground."""
+    if water.table is None:
+        return
+    x = np.union1d(np.linspace(0.0, ground.width, PLACES), np.concatenate([ground.x, water.table.x]))
+    table, top = water.height_at(x), ground.height_at(x)
+    axes.fill_between(x, top, table, where=(table > top).tolist(), color=WATER, alpha=0.35, linewidth=0)
+    axes.plot(x, table, color=WATER, linewidth=1.1)
+    sign = np.array([SIGN * ground.width])
+    axes.plot(sign, water.height_at(sign), marker=7, markersize=7, color=WATER)
+
+
 def section_of(scene: Scene, runouts: Sequence[float] | Array) -> Section:
     """Return the section of a scene, wide enough for these run-outs (m) and for the places asked about.
 
@@ -128,5 +152,12 @@ def section_of(scene: Scene, runouts: Sequence[float] | Array) -> Section:
     side = particle_spacing(scene.numerics.cell, scene.numerics.particles_per_cell)
     right = min(surface.width, (1 + MARGIN) * farthest + 2 * side) if runout > 0.0 else surface.width
     return Section(
-        surface, float(side), right, SKY * surface.top, scene.receptor, drawn_layers(scene), interfaces_of(scene)
+        surface,
+        float(side),
+        right,
+        SKY * surface.top,
+        scene.receptor,
+        drawn_layers(scene),
+        interfaces_of(scene),
+        water_of(scene),
     )

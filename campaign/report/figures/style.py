@@ -17,6 +17,9 @@ COLUMN = 5.0
 # The palette of Okabe and Ito (2008).
 BLUE, ORANGE, GREEN, GREY, BLACK = "#0072B2", "#D55E00", "#009E73", "#8c8c8c", "#000000"
 
+WATER = "#3a8fb7"
+"""A water table."""
+
 STILL = "#d3d3d3"
 """Ground that has not moved."""
 

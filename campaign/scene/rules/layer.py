@@ -1,12 +1,10 @@
 """A layer has one top, which spans the section."""
 
 from campaign.scene.ground_surface import surface_through
+from campaign.scene.polylines import cut_off
 from campaign.scene.rules.measures import Points
 from campaign.scene.rules.rule import Rules
 from solver.surface import slope_surface
-
-ROUNDING = 1e-9
-"""Share of the width within which a top ends at a wall."""
 
 RULES = Rules()
 
@@ -38,12 +36,5 @@ def _spans_the_surface(top: Points | None, surface: Points | None) -> str | None
 
 
 def _spans(top: Points | None, width: float) -> str | None:
-    if top is None or len(top) == 1:
-        return None
-    first, last = top[0][0], top[-1][0]
-    if first <= 0.0 and last >= width * (1.0 - ROUNDING):
-        return None
-    return (
-        f"it goes from x = {first:g} m to {last:g} m, and the section from 0 m to {width:g} m; continue it to both "
-        "walls, with points behind the surface where the layer ends"
-    )
+    complaint = None if top is None else cut_off(top, width)
+    return complaint and f"{complaint}, with points behind the surface where the layer ends"
