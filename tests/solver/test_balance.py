@@ -22,7 +22,7 @@ def test_particles_feel_the_acceleration_of_their_nodes():
     grid = MODEL.allocate_grid()
     tiles = begin(ground, grid, allocate_workspace(ground.x.size), MODEL.scheme)
     choices = StepChoices("musl")
-    acceleration, _ = solve(spread(ground, grid, choices), grid, choices, STANDARD_GRAVITY, 1e-3)
+    acceleration, _ = solve(spread(ground, grid, choices, STANDARD_GRAVITY), grid, choices, STANDARD_GRAVITY, 1e-3)
     felt = ground.mass[:, None] * (weights_at(ground, grid).s.T @ acceleration)
     expected = np.linalg.norm(felt) / np.linalg.norm(ground.mass * STANDARD_GRAVITY)
     assert felt_share(tiles, grid, STANDARD_GRAVITY) == pytest.approx(expected, rel=1e-12)
