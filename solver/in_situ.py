@@ -18,7 +18,7 @@ from solver.balance import felt_share, unbalanced_share
 from solver.constants import STANDARD_GRAVITY
 from solver.method import Method
 from solver.model import Model
-from solver.overburden import overburden, uplift
+from solver.overburden import overburden
 from solver.particles import Particles
 from solver.pore_pressure import wet_ground_of
 from solver.scheme import scheme_of
@@ -43,9 +43,10 @@ class NotSettledError(RuntimeError):
 
 
 def lay_geostatic_stress(particles: Particles, model: Model) -> None:
-    """Start from ``s_yy = u - weight above``, ``s_xx = s_zz = nu / (1 - nu) s_yy``, exact under level ground."""
+    """Start from ``s_yy = u + uplift - weight above``, ``s_xx = s_zz = nu / (1 - nu) s_yy``; true of level ground."""
     x, y = particles.x, particles.y
-    vertical = particles.pore_pressure + uplift(model, x, y) - overburden(model, x, y)
+    lifted = model.water.uplift(model.surface.height_at(x), y)
+    vertical = particles.pore_pressure + lifted - overburden(model, x, y)
     poisson_ratio = np.array([material.poisson_ratio for material in model.materials])[particles.material]
     horizontal = poisson_ratio / (1.0 - poisson_ratio) * vertical
     particles.stress_yy[:] = vertical

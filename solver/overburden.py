@@ -1,16 +1,8 @@
-"""The weight of the ground above a place, as a scene draws its layers and its water, and what standing water lifts."""
+"""The weight of the ground above a place, as a scene draws its layers and its water."""
 
 import numpy as np
 
 from solver.model import Model
-
-
-def uplift(model: Model, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the weight in Pa of the standing water in the place of the ground above each place."""
-    if model.water.level is None:
-        return np.zeros_like(x)
-    below = np.maximum(np.minimum(model.surface.height_at(x), model.water.level) - y, 0.0)
-    return model.water.unit_weight * below
 
 
 def overburden(model: Model, x: np.ndarray, y: np.ndarray) -> np.ndarray:

@@ -23,6 +23,11 @@ class Water(NamedTuple):
     unit_weight: float = UNIT_WEIGHT  # N/m3
     level: float | None = None  # m, of the water that stands where the table is above the ground
 
+    def raised(self, by: float) -> "Water":
+        """Return the same water by so many m higher."""
+        table = self.table and self.table._replace(y=self.table.y + by)
+        return self._replace(table=table, level=None if self.level is None else self.level + by)
+
     def height_at(self, x: np.ndarray) -> np.ndarray:
         """Return the elevation in m of the table above each ``x``; below all ground without one."""
         return np.full_like(x, -np.inf) if self.table is None else self.table.height_at(x)
@@ -33,6 +38,12 @@ class Water(NamedTuple):
             return self.ratio * overburden
         column: np.ndarray = self.unit_weight * np.maximum(self.height_at(x) - y, 0.0)
         return column
+
+    def uplift(self, top: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return the weight in Pa of the standing water in the place of the ground between elevations (m)."""
+        level = -np.inf if self.level is None else self.level
+        weight: np.ndarray = self.unit_weight * np.maximum(np.minimum(top, level) - y, 0.0)
+        return weight
 
     def standing_pressure(self, y: np.ndarray) -> np.ndarray:
         """Return the pressure in Pa of standing water at elevations ``y`` (m), were it to reach everywhere."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.ground_water import carried_share, saturated_unit_weight, water_of
 from campaign.scene.layers import interfaces_of, layer_at, layer_scenes
 from campaign.scene.limit_equilibrium import SlipCircle, Strata, critical_circle, factor_on
 from campaign.scene.sections import FrictionAngle
@@ -124,20 +125,23 @@ def _softens(scene: Scene) -> bool:
 def strata_of(scene: Scene, strengths: Sequence[Strength], added: float = 0.0) -> Strata:
     """Return the layers of a scene, each with a strength, above so many m of `added` ground."""
     cohesions, friction_angles = zip(*strengths, strict=True)
-    unit_weights = tuple(soil.unit_weight for soil in scene.soils)
+    moist, saturated = zip(*((soil.unit_weight, saturated_unit_weight(soil)) for soil in scene.soils), strict=True)
     interfaces = tuple(raised(top, added) for top in interfaces_of(scene))
-    return Strata(cohesions, friction_angles, unit_weights, interfaces)
+    return Strata(cohesions, friction_angles, moist, interfaces, saturated, water_of(scene).raised(added))
 
 
 def braking_friction(scene: Scene, surface: Surface, height: float) -> float:
-    """Return what brakes a slide ahead of the toe, over its weight: tan(phi) + c / (gamma d) - tan(beta), or 0.05.
+    """Return what brakes a slide ahead of the toe, over its weight.
 
-    Strength c, phi is what softening has left after a slip of half the height, of the layer at the toe; d is 0.3
-    heights, and beta the inclination of the ground over two heights ahead of the toe. Gentle fans of weak soil brake
-    little.
+    It is ``(1 - r) tan(phi) + c / (gamma d) - tan(beta)``, and 0.05 at least.
+    Strength c, phi is what softening has left after a slip of half the height, of the layer at the toe; r is the share
+    of the weight that the pore pressure carries there, d is 0.3 heights, and beta the inclination of the ground over
+    two heights ahead of the toe. Gentle fans of weak soil brake little.
     """
     toe_x, toe_y = surface.toe
-    at_toe = int(layer_at(interfaces_of(scene), np.array([toe_x]), np.array([toe_y - BELOW_TOE * height]))[0])
+    below_toe = np.array([toe_x]), np.array([toe_y - BELOW_TOE * height])
+    at_toe = int(layer_at(interfaces_of(scene), *below_toe)[0])
+    effective = 1.0 - float(carried_share(scene, *below_toe)[0])
     layer = layer_scenes(scene)[at_toe]
     left = share_left(layer.soil.softening, 0.5 * height, scene.numerics.locking == "none")
     cohesion, angle = (
@@ -145,7 +149,7 @@ def braking_friction(scene: Scene, surface: Surface, height: float) -> float:
     )
     end = min(toe_x + 2.0 * height, surface.width)
     descent = (toe_y - float(surface.height_at(np.array([end]))[0])) / (end - toe_x)
-    return max(LEAST_FRICTION, tan(angle) + cohesion / (layer.soil.unit_weight * DEPTH * height) - descent)
+    return max(LEAST_FRICTION, effective * tan(angle) + cohesion / (layer.soil.unit_weight * DEPTH * height) - descent)
 
 
 def _circle(surface: Surface, strata: Strata) -> SlipCircle | None:

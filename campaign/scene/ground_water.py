@@ -7,6 +7,7 @@ from campaign.scene.ground_surface import surface_of
 from campaign.scene.layers import interfaces_of, thickness_above
 from campaign.scene.polylines import across, lower_of, upper_of
 from campaign.scene.scene import Scene
+from campaign.scene.sections import Soil
 from solver.surface import Surface
 from solver.water import NO_WATER, Water
 
@@ -61,16 +62,28 @@ def water_words(scene: Scene) -> str | None:
 
 
 def most_carried(scene: Scene) -> float:
-    """Return the largest share of the weight above that the pore pressure carries, at the base; without lakes."""
-    ground, water = surface_of(scene.geometry), water_of(scene)
-    interfaces, x = interfaces_of(scene), _places(ground)
-    below = np.clip(water.height_at(x), 0.0, ground.height_at(x))
-    whole, moist = (thickness_above(ground, interfaces, x, y) for y in (np.zeros_like(x), below))
+    """Return the largest share of the weight above that the pore pressure carries: at the base."""
+    x = _places(surface_of(scene.geometry))
+    return float(np.max(carried_share(scene, x, np.zeros_like(x))))
+
+
+def carried_share(scene: Scene, x: Array, y: Array) -> Array:
+    """Return which share of the weight above places in the ground their pore pressure carries, without lakes."""
+    ground, table = surface_of(scene.geometry), table_of(scene)
+    if table is None:
+        return np.full_like(x, scene.water.r_u or 0.0)
+    interfaces, below = interfaces_of(scene), np.clip(table.height_at(x), y, ground.height_at(x))
+    whole, moist = (thickness_above(ground, interfaces, x, bottom) for bottom in (y, below))
     weight = np.zeros_like(x)
-    for soil, all_of_it, above in zip(scene.soils, whole, moist, strict=True):
-        saturated = soil.saturated_unit_weight or soil.unit_weight
-        weight += soil.unit_weight * above + saturated * (all_of_it - above)
-    return float(np.max(water.unit_weight * below / weight))
+    for soil, thickness, above in zip(scene.soils, whole, moist, strict=True):
+        weight += soil.unit_weight * above + saturated_unit_weight(soil) * (thickness - above)
+    share: Array = scene.water.unit_weight * (below - y) / weight
+    return share
+
+
+def saturated_unit_weight(soil: Soil) -> float:
+    """Return the unit weight in N/m3 of a soil below the water table."""
+    return soil.unit_weight if soil.saturated_unit_weight is None else soil.saturated_unit_weight
 
 
 def _places(ground: Surface) -> Array:

@@ -1,13 +1,15 @@
 """The factor of safety of a slope by Bishop's simplified method, as a first look before anything is run.
 
 A circular slip surface is cut into vertical slices of width ``b`` and weight ``W``, whose bases dip by ``alpha``
-towards the toe. Moments about the centre, with no shear between slices, give (Bishop 1955, Geotechnique 5:7)
+towards the toe, with the pore pressure ``u``. Moments about the centre, with no shear between slices, give (Bishop
+1955, Geotechnique 5:7)
 
-    F = sum [(c b + W tan(phi)) / (cos(alpha) + sin(alpha) tan(phi) / F)] / sum W sin(alpha)
+    F = sum [(c b + (W - u b) tan(phi)) / (cos(alpha) + sin(alpha) tan(phi) / F)] / sum W sin(alpha)
 
-with the mean of ``c`` and ``tan(phi)`` over the base of a slice, which interfaces of layers may cut. The critical
-circle is the one with the least ``F``. Circles end on the ground surface, stay above the fixed base, and fall by a good
-part of the height of the slope, or the weakest one would be that of a bump on the crest.
+with the mean of ``c`` and ``tan(phi)`` over the base of a slice, which interfaces of layers may cut. Standing water is
+in balance with itself: below its level ground has its buoyant weight, and ``u`` is in excess of it. The critical circle
+is the one with the least ``F``. Circles end on the ground surface, stay above the fixed base, and fall by a good part of
+the height of the slope, or the weakest one would be that of a bump on the crest.
 """
 
 from typing import NamedTuple
@@ -17,6 +19,7 @@ from numpy.typing import NDArray
 
 from campaign.scene.layers import layer_at, thickness_above
 from solver.surface import Surface
+from solver.water import NO_WATER, Water
 
 Array = NDArray[np.float64]
 
@@ -77,6 +80,8 @@ class Strata(NamedTuple):
     friction_angle: tuple[float, ...]  # rad
     unit_weight: tuple[float, ...]  # N/m3
     interfaces: tuple[Surface, ...] = ()  # the k-th is the top of the layer k + 1, nowhere above those before
+    saturated_unit_weight: tuple[float, ...] = ()  # N/m3, below a water table; none given: the same
+    water: Water = NO_WATER
 
 
 def critical_circle(surface: Surface, strata: Strata) -> SlipCircle:
@@ -153,7 +158,8 @@ def factors_of_safety(surface: Surface, strata: Strata, entry: Array, exit_: Arr
 class _Slices(NamedTuple):
     """Vertical slices of k circles, each (k, slices)."""
 
-    weight: Array  # N/m
+    weight: Array  # N/m, buoyant under standing water
+    uplift: Array  # N/m, u b
     cohesive_force: Array  # N/m, c b
     tangent: Array  # tan(phi) at the base
     sine: Array  # of the dip of the base
@@ -163,15 +169,27 @@ class _Slices(NamedTuple):
 def _slices(surface: Surface, strata: Strata, x: Array, base: Array, width: Array, sine: Array) -> _Slices:
     """Return slices of a `width` in m around `x`, whose bases have their middle at the elevation `base` in m."""
     cosine = np.sqrt(1.0 - sine**2)
-    above = thickness_above(surface, strata.interfaces, x, base)
-    weight = sum(each * thickness for each, thickness in zip(strata.unit_weight, above, strict=True)) * width
+    weight = _weight_above(surface, strata, x, base)
+    pore_pressure = strata.water.pore_pressure(x, base, weight) - strata.water.standing_pressure(base)
+    weight = weight - strata.water.uplift(surface.height_at(x), base)
     places = BASE_PLACES if strata.interfaces else 1
     aside = (width * ((np.arange(places) + 0.5) / places - 0.5))[..., None, :]
     layer = layer_at(strata.interfaces, x[..., None] + aside, base[..., None] - (sine / cosine)[..., None] * aside)
     cohesion, tangent = (
         np.asarray(each)[layer].mean(axis=-1) for each in (strata.cohesion, np.tan(strata.friction_angle))
     )
-    return _Slices(weight, cohesion * width, tangent, sine, cosine)
+    return _Slices(weight * width, pore_pressure * width, cohesion * width, tangent, sine, cosine)
+
+
+def _weight_above(surface: Surface, strata: Strata, x: Array, y: Array) -> Array:
+    """Return the weight of the ground above places, moist above the water table and saturated below it, in Pa."""
+    table = np.clip(strata.water.height_at(x), y, None)
+    whole, moist = (thickness_above(surface, strata.interfaces, x, bottom) for bottom in (y, table))
+    saturated = strata.saturated_unit_weight or strata.unit_weight
+    weight = np.zeros_like(x)
+    for gamma, gamma_wet, thickness, above in zip(strata.unit_weight, saturated, whole, moist, strict=True):
+        weight += gamma * above + gamma_wet * (thickness - above)
+    return weight
 
 
 def _circles(surface: Surface, entry: Array, exit_: Array, sagitta: Array) -> tuple[Array, Array, Array]:
@@ -195,7 +213,7 @@ def _lowest(centre_x: Array, centre_y: Array, radius: Array, entry: Array, exit_
 
 def _bishop(slices: _Slices) -> Array:
     driving = np.sum(slices.weight * slices.sine, axis=1)
-    resisting = slices.cohesive_force + slices.weight * slices.tangent
+    resisting = slices.cohesive_force + (slices.weight - slices.uplift) * slices.tangent
     factor = np.ones(driving.size)
     with np.errstate(divide="ignore", invalid="ignore"):
         for _ in range(ITERATIONS):

@@ -8,6 +8,7 @@ import pytest
 from campaign.scene.layers import lower_of
 from campaign.scene.limit_equilibrium import Strata, critical_circle, factor_on
 from solver.surface import Surface, slope_surface
+from solver.water import Water
 
 TWO_TO_ONE = np.arctan(0.5)
 UNIT_WEIGHT = 20e3  # N/m3
@@ -105,3 +106,51 @@ def test_a_circle_stays_above_what_is_strong():
     found = critical_circle(CUT, CLAY_BETWEEN._replace(cohesion=(6e3, 35e3, 3e6)))
     x = np.linspace(found.entry, found.exit, 50)
     assert np.min(found.elevation(x) - TOPS[1].height_at(x)) > -0.1
+
+
+def wet(strata, **water):
+    return strata._replace(saturated_unit_weight=strata.unit_weight, water=Water(**water))
+
+
+def test_a_published_slope_with_a_pore_pressure_ratio():
+    """4:1, c / gamma H = 0.025, r_u = 0.35, firm ground at 1.25 H: 1.97 - 1.78 r_u = 1.35 by the coefficients of Bishop
+    and Morgenstern (1960), 1.34 by another program."""
+    surface = slope_surface(31.0, np.arctan(0.25), crest=60.0, plain=60.0, foundation=0.25 * 31.0)
+    strata = Strata((12.5e3,), (np.radians(20.0),), (16e3,))
+    assert critical_circle(surface, wet(strata, ratio=0.35)).factor == pytest.approx(1.345, rel=0.01)
+
+
+def test_a_table_at_the_surface_is_a_ratio_in_saturated_ground():
+    """``u = gamma_w d`` is ``r_u = gamma_w / gamma_sat``."""
+    surface = slope_surface(10.0, TWO_TO_ONE, 30.0, 30.0, 5.0)
+    table, ratio = (
+        critical_circle(surface, wet(one_soil(10e3, 25.0), **water)).factor
+        for water in ({"table": surface}, {"ratio": 9810.0 / UNIT_WEIGHT})
+    )
+    assert table == pytest.approx(ratio, rel=1e-9)
+
+
+def test_a_table_below_all_circles_changes_nothing():
+    surface = slope_surface(15.0, np.pi / 4, 20.0, 40.0, 4.0)
+    dry = critical_circle(surface, one_soil(20e3, 10.0))
+    table = Surface(np.array([0.0, surface.width]), np.array([0.5, 0.5]))
+    assert critical_circle(surface, wet(one_soil(20e3, 10.0), table=table)) == dry
+
+
+def test_a_slope_under_water_is_one_of_its_buoyant_weight():
+    surface = slope_surface(10.0, TWO_TO_ONE, 30.0, 30.0, 5.0)
+    level = Surface(np.array([0.0, surface.width]), np.array([20.0, 20.0]))
+    under_water = critical_circle(surface, wet(one_soil(10e3, 25.0), table=level, level=20.0)).factor
+    buoyant = Strata((10e3,), (np.radians(25.0),), (UNIT_WEIGHT - 9810.0,))
+    assert under_water == pytest.approx(critical_circle(surface, buoyant).factor, rel=1e-9)
+
+
+def test_drawdown_is_worse_than_the_lake_and_than_dry_ground():
+    """Ground that stays full when the lake has gone: the classical case of upstream slopes of dams."""
+    surface = slope_surface(10.0, TWO_TO_ONE, 30.0, 30.0, 5.0)
+    lake = Surface(np.array([0.0, surface.width]), np.array([15.0, 15.0]))
+    full, after, dry = (
+        critical_circle(surface, wet(one_soil(10e3, 25.0), **water)).factor
+        for water in ({"table": lake, "level": 15.0}, {"table": surface}, {})
+    )
+    assert after < dry < full
