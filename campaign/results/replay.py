@@ -74,7 +74,7 @@ def state(march: March) -> tuple[Array, dict[str, Array]]:
     """Return the places (n, 3) of the particles in m and, by name, what they carry, in SI units.
 
     The elevation is the second coordinate, as ParaView looks along the third. Vectors have three components, and the
-    symmetric stress has six: xx, yy, zz, xy, yz, xz.
+    symmetric effective stress has six: xx, yy, zz, xy, yz, xz.
     """
     now, start = march.particles, march.reference
     zero = np.zeros_like(now.x)
@@ -88,6 +88,7 @@ def state(march: March) -> tuple[Array, dict[str, Array]]:
         "cohesion": cohesion,
         "friction_angle": friction_angle,
         "volume": now.volume,
+        "pore_pressure": now.pore_pressure + march.model.water.standing_pressure(now.y),
     }
 
 

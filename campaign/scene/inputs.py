@@ -64,6 +64,8 @@ INPUTS = (
     Input(INTERNAL_LENGTH, "internal length of softening"),
     *(Input(row.mean_key, f"mean {row.long_name}", row.cov_key) for row in PROPERTIES),
     Input("soil.unit_weight", "unit weight"),
+    Input("soil.saturated_unit_weight", "saturated unit weight"),
+    Input("water.r_u", "pore pressure ratio r_u"),
     Input("soil.young_modulus", "Young's modulus"),
 )
 """Those of which a realization stays the same ground but for them: no lengths of the field, nothing of the mesh."""

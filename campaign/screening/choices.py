@@ -14,11 +14,13 @@ from campaign.fields.properties import BY_NAME, value_of
 from campaign.running.study import Changes
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.ground_water import water_of
 from campaign.scene.layers import layer_scenes
 from campaign.scene.units import PRESSURE, shown_in_unit
 from campaign.scene.variant import in_all_layers, with_cell, with_stiffness
 from campaign.simulation.scene_sampler import CELLS_PER_DISTANCE, correlation_of
 from campaign.statistics.release import OTHER
+from solver.water import NO_WATER
 
 NOT_RANDOM = 1e-6
 """Coefficient of variation in the place of none, which a scene does not take for a peak strength."""
@@ -72,6 +74,8 @@ def _soil(scene: Scene) -> Iterator[Choice]:
     layers = layer_scenes(scene)
     if scene.layer:
         yield Choice("layers", "the soil of the surface", ("layer=[]",))
+    if water_of(scene) != NO_WATER:
+        yield Choice("water", "none", ("water={}",))
     for row in (BY_NAME[name] for name in PEAKS):
         if any((value_of(layer, row.cov_key) or 0.0) > NOT_RANDOM for layer in layers):
             changes = _everywhere(scene, row.cov_key, f"{NOT_RANDOM:g}")

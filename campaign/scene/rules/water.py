@@ -54,22 +54,16 @@ def _in_the_ground(table: Points | None, level: float | None, ground: Surface) -
 
 @RULES.on("water.level", "geometry.surface")
 def _level_over_the_ground(level: float | None, surface: Points | None) -> str | None:
-    return None if level is None or surface is None else _stands(level, surface_through(surface))
+    return None if surface is None else _stands(level, min(y for _, y in surface))
 
 
 @RULES.on("water.level", "geometry.slope.foundation")
 def _level_over_the_plain(level: float | None, foundation: float) -> str | None:
-    if level is None or level > foundation:
-        return None
-    return (
-        f"no ground lies below it, for the plain is at {foundation:g} m: elevations count from the base, at 0; a water "
-        "table in the ground is water.table"
-    )
+    return _stands(level, foundation)
 
 
-def _stands(level: float, ground: Surface) -> str | None:
-    lowest = float(ground.y.min())
-    if level > lowest:
+def _stands(level: float | None, lowest: float) -> str | None:
+    if level is None or level > lowest:
         return None
     return (
         f"no ground lies below it, for the lowest is at {lowest:g} m: elevations count from the base, at 0; a water "
@@ -85,13 +79,6 @@ def _heavier_when_wet(saturated: float | None, moist: float, of_water: float) ->
         return f"ground full of water weighs no less than moist, {moist / 1e3:g} kN/m^3"
     if saturated <= of_water:
         return f"it must be more than that of water, {of_water / 1e3:g} kN/m^3, or the ground would float"
-    return None
-
-
-@RULES.on("soil.saturated_unit_weight", "water.table", "water.level")
-def _has_a_table(saturated: float | None, table: Points | None, level: float | None) -> str | None:
-    if saturated is not None and table is None and level is None:
-        return "no ground lies below a water table; give a water.table, or leave this out"
     return None
 
 
