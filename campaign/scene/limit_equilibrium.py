@@ -8,8 +8,8 @@ towards the toe, with the pore pressure ``u``. Moments about the centre, with no
 
 with the mean of ``c`` and ``tan(phi)`` over the base of a slice, which interfaces of layers may cut. Standing water is
 in balance with itself: below its level ground has its buoyant weight, and ``u`` is in excess of it. The critical circle
-is the one with the least ``F``. Circles end on the ground surface, stay above the fixed base, and fall by a good part of
-the height of the slope, or the weakest one would be that of a bump on the crest.
+is the one with the least ``F``. Circles end on the ground surface, stay above the fixed base, and fall by a good part
+of the height of the slope, or the weakest one would be that of a bump on the crest.
 """
 
 from typing import NamedTuple
