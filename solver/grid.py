@@ -9,7 +9,7 @@ from solver.memory import aligned_zeros
 from solver.standing_water import NO_LAKE
 
 PADDING = 2  # layers of nodes beyond a wall: GIMP weights reach one, a particle pressed into the wall a second
-SCALARS = ("mass", "overburden", "uplift", "cell_volume", "cell_dilation", "cell_pressure", "cell_plastic_strain")
+SCALARS = ("mass", "overburden", "cell_volume", "cell_dilation", "cell_pressure", "cell_plastic_strain")
 VECTORS = ("momentum", "force", "acceleration", "velocity", "remapped")
 NO_SMOOTHING = np.ones(1)
 SMALLEST_MASS = 1e-12  # kg/m: below it a node carries nothing and 0/0 is avoided
@@ -38,7 +38,6 @@ class Grid(NamedTuple):
     momentum: np.ndarray  # (rows, 2, columns) kg/s, of the particles as they are
     force: np.ndarray  # (rows, 2, columns) N/m, internal
     overburden: np.ndarray  # (rows, columns) Pa, weight of the ground above a node, where there is water
-    uplift: np.ndarray  # (rows, columns) Pa, what of it standing water carries
     acceleration: np.ndarray  # (rows, 2, columns) m/s2
     velocity: np.ndarray  # (rows, 2, columns) m/s, at the end of the step
     remapped: np.ndarray  # (rows, 2, columns) momentum (kg/s), then velocity (m/s), of the updated particles

@@ -12,11 +12,9 @@ which under level ground is ``gamma d`` from a cell below the surface on. Pore p
 strains, so they neither stiffen the ground nor shorten its steps. ``r`` is that of the drawn water before the slide, by
 the same sum, so that the pore pressure is the drawn one there.
 
-Where water stands over the ground, it loads the pore water in full: the pressure is ``r_p W`` and that of the standing
-water on the surface. In excess of the standing water at the place itself (``standing_water``), which is larger by the
-uplift ``U`` of the ground above, it is
-
-    u_p = sum_i S_ip (r_p W_i - U_i)
+Where water stands over the ground, it loads the pore water in full: the pressure is ``r_p W_p`` and that of the
+standing water on the surface. In excess of the standing water at the place itself (``standing_water``), which is larger
+by the uplift of the ground above, it is ``u_p = r_p W_p - U_p``.
 """
 
 import numpy as np
@@ -31,7 +29,7 @@ from solver.overburden import overburden
 from solver.particles import Particles, copy_particles
 from solver.sorting import fill_tiles, read_tiles
 from solver.spread import spread_each
-from solver.standing_water import LIGHTENING, share_below
+from solver.standing_water import uplift_of
 from solver.tiles import PORE_PRESSURE, allocate_tiles, place_of, put, take
 from solver.transfer import nine, weights_of
 from solver.water import NO_WATER
@@ -39,20 +37,17 @@ from solver.water import NO_WATER
 
 @inlined
 def find_overburden(grid, gravity):
-    """Set the weight of the ground above each node, under ``gravity`` in m/s2, and its uplift, from nodal masses."""
+    """Set the weight of the ground above each node, under ``gravity`` in m/s2, from the masses of the nodes."""
     for column in range(0, grid.columns, LANE_COUNT):
         i = lane_numbers() + float(column - PADDING)
         is_wall = (i == 0.0) | (i == float(round(grid.width / grid.cell_size)))
         factor = where(is_wall, 2.0, 1.0) * (gravity / grid.cell_size)
-        above = lifted = splat(0.0)
+        above = splat(0.0)
         for row in range(grid.rows - 1, -1, -1):
             node = row * grid.columns + column
-            share = share_below(grid.origin + row * grid.cell_size, 0.5 * grid.cell_size, grid)
             weight = factor * load(grid.mass, node)
-            lift = grid.lake[LIGHTENING] * share * weight
             store(grid.overburden, node, above + 0.5 * weight)
-            store(grid.uplift, node, lifted + 0.5 * lift)
-            above, lifted = above + weight, lifted + lift
+            above = above + weight
 
 
 @inlined
@@ -60,7 +55,7 @@ def pore_pressure_of(p, row, column, w, grid):
     """Return the pore pressure in Pa of a block of particles under the ground above the nodes."""
     start = row * grid.columns + column
     overburden = nine(grid.overburden, start, grid.columns, w.sx, w.sy)
-    return p.pore_pressure_ratio * overburden - nine(grid.uplift, start, grid.columns, w.sx, w.sy)
+    return p.pore_pressure_ratio * overburden - uplift_of(p.y, overburden, grid)
 
 
 @kernel

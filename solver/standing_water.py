@@ -27,13 +27,17 @@ def lake_of(water: Water, density: float) -> np.ndarray:
 
 
 @inlined
-def share_below(y, half_height, grid):
-    """Return the share of ``y +- half_height`` (m) below the level of the lake."""
-    return min(max((grid.lake[LEVEL] - y) * (0.5 / half_height) + 0.5, 0.0), 1.0)
+def displaced_mass(particles, grid):
+    """Return the mass in kg/m of the standing water in the place of particles."""
+    share = (grid.lake[LEVEL] - particles.y) * (0.5 / (grid.half_length * grid.cell_size)) + 0.5
+    return grid.lake[DENSITY] * particles.volume * min(max(share, 0.0), 1.0)
 
 
 @inlined
-def displaced_mass(particles, grid):
-    """Return the mass in kg/m of the standing water in the place of particles."""
-    share = share_below(particles.y, grid.half_length * grid.cell_size, grid)
-    return grid.lake[DENSITY] * particles.volume * share
+def uplift_of(y, overburden, grid):
+    """Return the weight in Pa of the standing water in the place of the ground above elevations ``y`` (m).
+
+    That ground is as thick as its weight says, ``overburden`` in Pa, and counts up to the level of the lake.
+    """
+    depth = max(grid.lake[LEVEL] - y, 0.0)
+    return min(grid.lake[LIGHTENING] * overburden, (grid.lake[DENSITY] * grid.lake[GRAVITY]) * depth)

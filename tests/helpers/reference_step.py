@@ -186,17 +186,14 @@ def accelerate(particles, s, acceleration, velocity, flip_fraction, dt):
 
 
 def feel_overburden(particles, s, mass, grid, gravity):
-    """Set the pore pressures, in place: of the weight above each node, with half its own."""
-
-    def above(weight):
-        return s.T @ (np.cumsum(weight[::-1], axis=0)[::-1] - 0.5 * weight).ravel()
-
+    """Set the pore pressures, in place: of the weight above each node, with half its own, less the uplift."""
     width = np.full(grid.columns, grid.cell_size)
     width[[PADDING, PADDING + round(grid.width / grid.cell_size)]] /= 2.0
     weight = gravity * mass.reshape(grid.rows, grid.columns) / width
-    y = grid.origin + grid.cell_size * np.arange(grid.rows)
-    lift = grid.lake[LIGHTENING] * weight * below_lake(y, 0.5 * grid.cell_size, grid)[:, None]
-    particles.pore_pressure[:] = particles.pore_pressure_ratio * above(weight) - above(lift)
+    overburden = s.T @ (np.cumsum(weight[::-1], axis=0)[::-1] - 0.5 * weight).ravel()
+    lake = gravity * grid.lake[DENSITY] * np.maximum(grid.lake[LEVEL] - particles.y, 0.0)
+    uplift = np.minimum(grid.lake[LIGHTENING] * overburden, lake)
+    particles.pore_pressure[:] = particles.pore_pressure_ratio * overburden - uplift
 
 
 def move(particles, displacement):
