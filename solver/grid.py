@@ -6,7 +6,7 @@ import numpy as np
 
 from solver.constants import LANE_COUNT
 from solver.memory import aligned_zeros
-from solver.standing_water import NO_LAKE
+from solver.water import NO_LAKE
 
 PADDING = 2  # layers of nodes beyond a wall: GIMP weights reach one, a particle pressed into the wall a second
 SCALARS = ("mass", "overburden", "cell_volume", "cell_dilation", "cell_pressure", "cell_plastic_strain")

@@ -10,9 +10,8 @@ from solver.materials import Material
 from solver.method import Method
 from solver.scheme import AnyScheme, scheme_of
 from solver.slide import PAPER, SlideCriteria
-from solver.standing_water import lake_of
 from solver.surface import Surface
-from solver.water import NO_WATER, Water
+from solver.water import NO_WATER, Water, lake_of
 
 HEADROOM_IN_CELLS = 2  # space above the highest ground
 

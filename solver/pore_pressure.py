@@ -4,7 +4,7 @@ Stresses of particles are effective, and what pushes the nodes is the total stre
 and does not drain: each particle keeps the ratio ``r`` of its pore pressure to the weight of the ground above it, so
 that the pressure falls where the slide thins and rises where it is overridden, ``u_p = r_p sum_i S_ip W_i``. The
 overburden ``W_i`` of a node is the weight of the column above it, of the masses of the nodes there and half its own,
-over the width ``h`` of a cell (half of it at a wall):
+over the width ``h`` of a cell (half of it at a wall, and all of its own at the base):
 
     W_i = g / h (m_i / 2 + sum_k>i m_k)
 
@@ -46,7 +46,8 @@ def find_overburden(grid, gravity):
         for row in range(grid.rows - 1, -1, -1):
             node = row * grid.columns + column
             weight = factor * load(grid.mass, node)
-            store(grid.overburden, node, above + 0.5 * weight)
+            own_share = 1.0 if row == PADDING else 0.5  # the ground of a node of the base lies above it
+            store(grid.overburden, node, above + own_share * weight)
             above = above + weight
 
 
@@ -74,23 +75,29 @@ def find_pore_pressures(tiles, grid, gravity):
 
 
 def wet_ground_of(model: Model) -> Particles:
-    """Return the particles of a model on their lattice, with the pore pressure that is drawn and their share of it."""
-    ground = ground_of(model)
-    if model.water == NO_WATER:
+    """Return the particles of a model on their lattice, with the pore pressure that is drawn and their share of it.
+
+    Particles near a face may lie under less ground than is drawn; their share is no larger than the drawn one.
+    """
+    ground, water = ground_of(model), model.water
+    if water == NO_WATER:
         return ground
-    pressure = model.water.pore_pressure(ground.x, ground.y, overburden(model, ground.x, ground.y))
-    drawn = pressure - model.water.standing_pressure(ground.y)
-    lifted = _pore_pressures(ground, model)
-    ground.pore_pressure_ratio[:] = 1.0
-    weight = _pore_pressures(ground, model) - lifted
-    ground.pore_pressure_ratio[:] = (drawn - lifted) / weight
-    ground.pore_pressure[:] = drawn
+    weight = overburden(model, ground.x, ground.y)
+    drawn = water.pore_pressure(ground.x, ground.y, weight)
+    excess = drawn - water.standing_pressure(ground.y)
+    on_surface = water.standing_pressure(model.surface.height_at(ground.x))
+    of_nodes = _pore_pressures(ground, 1.0, model)
+    uplift = -_pore_pressures(ground, 0.0, model)
+    ratio = np.minimum((excess + uplift) / (of_nodes + uplift), (drawn - on_surface) / weight)
+    ground.pore_pressure_ratio[:] = ratio
+    ground.pore_pressure[:] = _pore_pressures(ground, ratio, model)
     return ground
 
 
-def _pore_pressures(ground: Particles, model: Model) -> np.ndarray:
-    """Return the pore pressures (n,) in Pa that the particles have with their ratios."""
+def _pore_pressures(ground: Particles, ratio: np.ndarray | float, model: Model) -> np.ndarray:
+    """Return the pore pressures (n,) in Pa that the particles would have with a ``ratio``."""
     grid, found = model.allocate_grid(), copy_particles(ground)
+    found.pore_pressure_ratio[:] = ratio
     tiles = fill_tiles(found, grid, allocate_tiles(ground.x.size))
     find_pore_pressures(tiles, grid, STANDARD_GRAVITY)
     read_tiles(tiles, found)

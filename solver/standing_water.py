@@ -6,24 +6,8 @@ gradient: each particle loses the weight of the water that it displaces. A parti
 by the share of its domain below. Waves, and the drag of water on ground that moves through it, are left out.
 """
 
-import numpy as np
-
 from solver._jit import inlined
-from solver.constants import STANDARD_GRAVITY
-from solver.water import Water
-
-LEVEL, DENSITY, GRAVITY, LIGHTENING = range(4)
-"""Entries of ``Grid.lake``: m; kg/m3 of the water; m/s2 now; density of the water over that of the ground."""
-
-NO_LAKE = np.array([-1e9, 0.0, STANDARD_GRAVITY, 0.0])
-
-
-def lake_of(water: Water, density: float) -> np.ndarray:
-    """Return the entries of ``Grid.lake`` for ground of a ``density`` in kg/m3."""
-    if water.level is None:
-        return NO_LAKE
-    of_water = water.unit_weight / STANDARD_GRAVITY
-    return np.array([water.level, of_water, STANDARD_GRAVITY, of_water / density])
+from solver.water import DENSITY, GRAVITY, LEVEL, LIGHTENING
 
 
 @inlined

@@ -36,9 +36,9 @@ from solver.pore_pressure import find_overburden, pore_pressure_of
 from solver.scheme import MUSL, USF, AnyScheme
 from solver.sorting import fill_tiles, read_tiles, sort_if_due
 from solver.spread import spread_all, spread_each
-from solver.standing_water import GRAVITY
 from solver.tiles import LEAVERS, PORE_PRESSURE, Tiles, allocate_tiles, place_of, put, take
 from solver.transfer import add_momentum, deposit_momentum, interpolate, no_momentum, weights_of
+from solver.water import GRAVITY
 
 
 class Workspace(NamedTuple):

@@ -10,7 +10,8 @@ from solver._jit import inlined
 from solver.basis import weight_and_gradient
 from solver.constants import LANE_COUNT
 from solver.lanes import lane_numbers, load, spill_1, spill_2, splat, store, up_1, up_2
-from solver.standing_water import GRAVITY, displaced_mass
+from solver.standing_water import displaced_mass
+from solver.water import GRAVITY
 
 
 class Weights(NamedTuple):

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from solver.constants import STANDARD_GRAVITY
 from solver.surface import Surface
 
 UNIT_WEIGHT = 9810.0  # N/m3
@@ -54,3 +55,16 @@ class Water(NamedTuple):
 
 NO_WATER = Water()
 """A ratio of zero: the ground is free of pore pressure."""
+
+LEVEL, DENSITY, GRAVITY, LIGHTENING = range(4)
+"""Entries of ``Grid.lake``: m; kg/m3 of the water; m/s2 now; density of the water over that of the ground."""
+
+NO_LAKE = np.array([-1e9, 0.0, STANDARD_GRAVITY, 0.0])
+
+
+def lake_of(water: Water, density: float) -> np.ndarray:
+    """Return the entries of ``Grid.lake`` for ground of a ``density`` in kg/m3."""
+    if water.level is None:
+        return NO_LAKE
+    of_water = water.unit_weight / STANDARD_GRAVITY
+    return np.array([water.level, of_water, STANDARD_GRAVITY, of_water / density])

@@ -55,6 +55,12 @@ LAYERS_AND_RECEPTORS = """
 #     unit_weight = "17 kN/m^3"
 #     cohesion = {mean = "15 kPa"}
 
+# Water in the ground; strengths are effective then.
+#
+#     [water]
+#     table = [["0 m", "15 m"], ["20 m", "12 m"], ["35 m", "4 m"], ["75 m", "4 m"]]   # x and elevation, wall to wall
+#     level = "6 m"             # of water that stands over the toe; left out, there is none
+
 # Places asked about, such as a road or the walls of a house: whether the slide reaches them, and what arrives.
 #
 #     [[receptor]]

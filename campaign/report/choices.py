@@ -2,6 +2,7 @@
 
 from campaign.fields.properties import BY_NAME
 from campaign.scene import Scene
+from campaign.scene.ground_water import water_words
 from campaign.scene.layer_table import LASTING, NONE, LayerRow, layer_rows, told_by_layer
 from campaign.scene.sections import Numerics, RandomField
 from campaign.scene.softening import known_rate, softening_rate, softening_words
@@ -27,15 +28,20 @@ METHODS = {
 def modelling_choices(scene: Scene) -> dict[str, str]:
     """Return the choices that the answer rests on and that no interval contains, by name."""
     layers = {f"Layer: {row.name}": _layer(row) for row in layer_rows(scene)}
-    return layers | {
-        "Soil law": told_by_layer(scene, lambda layer: layer.soil.law),
-        "How it begins": _beginning(scene.numerics),
-        "Softening": told_by_layer(scene, _softening),
-        "Against too stiff yielding": LOCKING[scene.numerics.locking],
-        "Method": _method(scene.numerics),
-        "Correlation": _correlation(scene),
-        "Cross-correlation": _cross_correlation(scene.field),
-    }
+    water = water_words(scene)
+    return (
+        layers
+        | ({"Water": water} if water else {})
+        | {
+            "Soil law": told_by_layer(scene, lambda layer: layer.soil.law),
+            "How it begins": _beginning(scene.numerics),
+            "Softening": told_by_layer(scene, _softening),
+            "Against too stiff yielding": LOCKING[scene.numerics.locking],
+            "Method": _method(scene.numerics),
+            "Correlation": _correlation(scene),
+            "Cross-correlation": _cross_correlation(scene.field),
+        }
+    )
 
 
 def _layer(row: LayerRow) -> str:

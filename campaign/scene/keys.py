@@ -19,6 +19,7 @@ DEPENDS = {
     "slide.front_area": "height^2 / 100",
     "geometry.toe": "the foot of the slope",
     "field.resolution": "the shorter distance / 8",
+    "soil.saturated_unit_weight": "unit_weight",
     "soil.cohesion.residual_cov": "0",
     "soil.friction_angle.residual_cov": "0",
 }
@@ -28,6 +29,8 @@ TAKES = {
     "geometry.surface": "points of x and elevation",
     "receptor.x": "a place, or both ends of a range",
     "layer.top": "an elevation, or points of x and elevation",
+    "water.table": "an elevation, or points of x and elevation",
+    "water.r_u": "a number",
     "field.correlation": ", ".join(f'"{name}"' for name in KERNELS),
     "campaign.accuracy": "a share or a length",
     "soil.softening.rate": "a number",

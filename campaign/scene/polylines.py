@@ -39,7 +39,7 @@ def upper_of(one: Surface, other: Surface) -> Surface:
 def lower_of(one: Surface, other: Surface) -> Surface:
     """Return the polyline that follows the lower one of two, over the width of the first."""
     places = np.union1d(one.x, other.x)
-    places = places[places <= one.width]
+    places = places[(places >= one.x[0]) & (places <= one.width)]
     x: list[float] = []
     y: list[float] = []
     for left, right in pairwise(places.tolist()):

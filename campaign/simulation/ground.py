@@ -253,7 +253,7 @@ def prepare(scene: Scene, directory: Path | None = None) -> Ground:
     is_ramp = scene.numerics.gravity == "ramp"
     with telling_of_compilation(lambda: say(COMPILING)):
         settled = _loaded(model, is_ramp, directory)
-    in_situ = copy_particles(lattice) if is_ramp else settled
+    in_situ = _unloaded(lattice) if is_ramp else settled
     return Ground(scene, model, lattice, in_situ, settled, _sampler(scene, model.surface, directory))
 
 
@@ -278,6 +278,11 @@ def _loaded(model: Model, from_nothing: bool, directory: Path | None) -> Particl
         return kept_in_situ_state(model, from_nothing, directory)
     except NotSettledError as error:
         raise RefusalError(str(error)) from error
+
+
+def _unloaded(lattice: Particles) -> Particles:
+    """Return the particles before gravity acts: neither stress nor pore pressure."""
+    return copy_particles(lattice._replace(pore_pressure=np.zeros_like(lattice.x)))
 
 
 def _sampler(scene: Scene, surface: Surface, directory: Path | None) -> StrengthSampler:

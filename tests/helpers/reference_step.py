@@ -13,7 +13,7 @@ import numpy as np
 
 from solver.grid import PADDING
 from solver.particles import copy_particles
-from solver.standing_water import DENSITY, LEVEL, LIGHTENING
+from solver.water import DENSITY, LEVEL, LIGHTENING
 
 EMPTY_NODE = 1e-12  # kg/m: a node with less mass stands still
 EMPTY_CELL = 1e-12  # m2: a cell with less volume has no mean
@@ -190,7 +190,8 @@ def feel_overburden(particles, s, mass, grid, gravity):
     width = np.full(grid.columns, grid.cell_size)
     width[[PADDING, PADDING + round(grid.width / grid.cell_size)]] /= 2.0
     weight = gravity * mass.reshape(grid.rows, grid.columns) / width
-    overburden = s.T @ (np.cumsum(weight[::-1], axis=0)[::-1] - 0.5 * weight).ravel()
+    below = np.where(np.arange(grid.rows) == PADDING, 0.0, 0.5)[:, None]
+    overburden = s.T @ (np.cumsum(weight[::-1], axis=0)[::-1] - below * weight).ravel()
     lake = gravity * grid.lake[DENSITY] * np.maximum(grid.lake[LEVEL] - particles.y, 0.0)
     uplift = np.minimum(grid.lake[LIGHTENING] * overburden, lake)
     particles.pore_pressure[:] = particles.pore_pressure_ratio * overburden - uplift

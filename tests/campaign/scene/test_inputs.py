@@ -18,7 +18,9 @@ def keys(scene):
 
 def test_a_scene_has_the_inputs_that_count_in_it():
     others = ["soil.softening.slip_to_residual", "soil.softening.reference_cell"]
-    assert [row.key for row in INPUTS if row.key not in keys(MA2023)] == others
+    of_wet_ground = ["soil.saturated_unit_weight", "water.r_u"]
+    assert [row.key for row in INPUTS if row.key not in keys(MA2023)] == [*others, *of_wet_ground]
+    assert "water.r_u" in keys(load_scene("ma2023", ["water.r_u=0.2"]))
     by_slip = keys(load_scene("ma2023", ["soil.softening.slip_to_residual=2 m"]))
     assert by_slip[0] == "soil.softening.slip_to_residual"
     assert "soil.softening.internal_length" not in by_slip

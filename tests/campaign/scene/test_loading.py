@@ -46,7 +46,7 @@ def test_only_the_required_keys_need_to_be_written() -> None:
 def test_an_unknown_scene_lists_the_built_in_ones() -> None:
     message = complaint(source="ma2032")
     assert message.startswith(
-        '"ma2032" is neither a file nor a built-in scene; built in are bui2008, layered, ma2023, ma2023-printed.'
+        '"ma2032" is neither a file nor a built-in scene; built in are bui2008, drawdown, layered'
     )
     assert message.endswith('Did you mean "ma2023"?')
 
