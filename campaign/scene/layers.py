@@ -12,14 +12,12 @@ from numpy.typing import NDArray
 from campaign.fields.properties import PROPERTIES, SoilProperty, marginals
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.polylines import across, lower_of
+from campaign.scene.rules.layer import FIRST
 from campaign.scene.scene import Scene
 from campaign.scene.sections import Layer
 from solver.surface import Surface
 
 Array = NDArray[np.float64]
-
-FIRST = "soil"
-"""What the layer at the surface is called."""
 
 
 def layer_names(scene: Scene) -> tuple[str, ...]:

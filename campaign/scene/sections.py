@@ -263,13 +263,20 @@ class Campaign(Section):
     realization_timeout: PositiveTime = 3600.0
 
 
+MOST_LAYERS = 10
+FEW_LAYERS = must(
+    f"be {MOST_LAYERS} layers or fewer, since the solver is compiled for all of them; join those that are alike",
+    lambda layers: len(layers) <= MOST_LAYERS,
+)
+
+
 class SceneFile(Section):
     """What a scene file holds."""
 
     title: Line
     geometry: Geometry
     soil: Soil
-    layer: Annotated[tuple[Layer, ...], Field(strict=False), listed("layer", "layer")] = ()
+    layer: Annotated[tuple[Layer, ...], Field(strict=False), listed("layer", "layer"), FEW_LAYERS] = ()
     water: GroundWater = GroundWater()
     field: RandomField
     numerics: Numerics

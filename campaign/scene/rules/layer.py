@@ -6,7 +6,15 @@ from campaign.scene.rules.measures import Points
 from campaign.scene.rules.rule import Rules
 from solver.surface import slope_surface
 
+FIRST = "soil"
+"""What the layer at the surface is called."""
+
 RULES = Rules()
+
+
+@RULES.on("layer.*.name")
+def _own_name(name: str) -> str | None:
+    return f"the ground at the surface is told as {FIRST}; give another name" if name == FIRST else None
 
 
 @RULES.on("layer.*.top", "layer.*.depth")

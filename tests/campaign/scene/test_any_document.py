@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scene_complaints import EXAMPLE, found_in
 
 from campaign.scene.document import key_lines
-from campaign.scene.sections import SceneFile
+from campaign.scene.sections import FrictionAngle, Layer, SceneFile, Softening
 
 JUNK = st.one_of(
     st.none(),
@@ -36,6 +36,25 @@ def test_whatever_is_written_the_answer_is_a_list_of_sentences(changes: list[tup
             table.pop(name, None)
             if value is not ...:
                 table[name] = copy.deepcopy(value)
+    messages = found_in(tables)
+    assert all(message.endswith((".", "?")) for message in messages)
+    if not messages:
+        SceneFile.model_validate(tables)
+
+
+PARTS = st.dictionaries(st.sampled_from([*FrictionAngle.model_fields, *Softening.model_fields]), JUNK, max_size=3)
+LAYER = st.dictionaries(st.sampled_from([*Layer.model_fields, "colour"]), st.one_of(JUNK, PARTS), max_size=5)
+WITH_NAME = st.builds(lambda table, name: {"name": name, "top": "3 m"} | table, LAYER, st.sampled_from(["a", "b", "c"]))
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(st.lists(st.one_of(WITH_NAME, LAYER, JUNK), max_size=3), st.booleans())
+def test_whatever_is_written_of_layers_the_answer_is_a_list_of_sentences(layers: list[Any], has_friction: bool) -> None:
+    """Below soil with a friction angle, from which they may take it, and without."""
+    tables = copy.deepcopy(EXAMPLE.tables) | {"layer": layers}
+    if not has_friction:
+        del tables["soil"]["friction_angle"]
+        tables["soil"]["law"], tables["field"]["cross_correlation"] = "tresca", 0.0
     messages = found_in(tables)
     assert all(message.endswith((".", "?")) for message in messages)
     if not messages:

@@ -131,6 +131,7 @@ def test_inputs_are_those_of_each_layer():
         ('layer.1.top=[["9 m", "3 m"], ["0 m", "2 m"]]', "it must go from left to right, and point 2"),
         ("layer.1.top=5", 'a length needs its unit and quotes, for instance "2 m"'),
         ("layer.2.name=clay", "layer 1 has that name, too"),
+        ("layer.2.name=soil", "the ground at the surface is told as soil; give another name"),
         ("layer.1.softening.internal_length=1 m", 'it belongs to another section, as "soil.softening.internal_length"'),
         ("layer.1.field=none", 'it must be "shared" or "own"'),
         ("layer.7.name=clay", "layer is a list of 2; set one key of one of them, as layer.1.name, or all of it"),
@@ -161,6 +162,13 @@ def test_a_layer_has_one_top_and_a_friction_angle_that_is_whole(tmp_path):
     path.write_text(f'{text}{sand}friction_angle = {{mean = "30 deg", cov = 0.1, residual = "20 deg"}}\n', "utf-8")
     soil, below = load_scene(path).soils
     assert (soil.friction_angle, below.friction_angle.cov) == (None, 0.1)
+
+
+def test_there_are_only_so_many_layers_as_the_solver_is_compiled_for():
+    """It is from 22 on that the compiler gives up."""
+    many = [f'{{name="{number}", top="{15 - number} m"}}' for number in range(11)]
+    assert "it must be 10 layers or fewer" in complaint(f"layer=[{', '.join(many)}]")
+    assert len(load_scene("ma2023", [f"layer=[{', '.join(many[:10])}]"]).soils) == 11
 
 
 def test_a_mistake_in_soil_is_told_once():
