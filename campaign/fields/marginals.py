@@ -25,17 +25,27 @@ class Lognormal:
         """Mean of ln X."""
         return log(self.mean) - self.sigma**2 / 2
 
+    @property
+    def steepness(self) -> float:
+        """Ratio sigma / COV, which is 1 without variation."""
+        return self.sigma / self.cov if self.cov else 1.0
+
     def __call__(self, gaussian: Array) -> Array:
         """Turn standard Gaussian values into values of this distribution."""
+        if not self.cov:
+            return np.full_like(gaussian, self.mean)
         return np.asarray(np.exp(self.log_mean + self.sigma * gaussian))
 
 
 def attainable_correlations(first: Lognormal, second: Lognormal) -> tuple[float, float]:
     """Return the least and the largest correlation of two lognormal fields, at which the Gaussian ones have -1 and 1.
 
-    (exp(-sigma_1 sigma_2) - 1) / (COV_1 COV_2) and (exp(sigma_1 sigma_2) - 1) / (COV_1 COV_2).
+    (exp(-sigma_1 sigma_2) - 1) / (COV_1 COV_2) and (exp(sigma_1 sigma_2) - 1) / (COV_1 COV_2), or the limits of these
+    where a variation is 0.
     """
     product, scale = first.cov * second.cov, first.sigma * second.sigma
+    if not product:
+        return -first.steepness * second.steepness, first.steepness * second.steepness
     return (exp(-scale) - 1.0) / product, expm1(scale) / product
 
 
@@ -45,4 +55,6 @@ def gaussian_cross_correlation(rho: float, first: Lognormal, second: Lognormal) 
     rho_G = ln(1 + rho COV_1 COV_2) / (sigma_1 sigma_2); Fenton and Griffiths (2008), Risk Assessment in Geotechnical
     Engineering, section 6.4. It is within -1 and 1 if `rho` is within `attainable_correlations`.
     """
+    if not first.cov * second.cov:
+        return rho / (first.steepness * second.steepness)
     return log1p(rho * first.cov * second.cov) / (first.sigma * second.sigma)

@@ -46,7 +46,7 @@ class SoilProperty(NamedTuple):
     name : str
         Of its field.
     mean_key, cov_key : str
-        Keys of the scene that hold mean and coefficient of variation. Without the latter it is the same everywhere.
+        Keys of the scene that hold mean and coefficient of variation. Without the latter, or with 0, it is not random.
     particle_array : str
         The array of `solver.particles.Particles` that its values at the particles become.
     long_name, symbol : str
@@ -55,8 +55,7 @@ class SoilProperty(NamedTuple):
     limit : float
         Value in SI below which it must stay everywhere.
     floor_key : str
-        Key of the scene below whose value it is at no particle, "" without one. If that value is the mean of another
-        random property, it is the other property that counts.
+        Mean key of the property below which it is at no particle, "" without one.
     marginal : type
         Its distribution, made of mean and coefficient of variation.
     """
@@ -77,7 +76,7 @@ class SoilProperty(NamedTuple):
         return value_of(scene, self.mean_key) or 0.0
 
     def distribution(self, scene: Any) -> Lognormal | None:
-        """Return its distribution in a scene, in SI; None if it is the same everywhere."""
+        """Return its distribution in a scene, in SI, with a variation of 0 as well; None if the scene gives none."""
         cov = value_of(scene, self.cov_key)
         return None if cov is None else self.marginal(self.mean(scene), cov)
 
@@ -134,25 +133,26 @@ PROPERTIES = (
 BY_NAME = {row.name: row for row in PROPERTIES}
 
 
-def raised_to_floor(drawn: Mapping[str, Array], scene: Any) -> dict[str, Array]:
-    """Return the random properties of some places with none below its floor.
+def raised_to_floor(soil: Mapping[str, Array]) -> dict[str, Array]:
+    """Return the properties of some places with none below its floor.
 
     Parameters
     ----------
-    drawn : mapping
-        Values in SI of the random properties by name, arrays of one shape; not modified.
-    scene : Scene
-        Gives the floors that are the same everywhere.
+    soil : mapping
+        Values in SI of all properties by name, arrays of one shape; not modified.
     """
-    random = {BY_NAME[name].mean_key: values for name, values in drawn.items()}
+    by_key = {row.mean_key: soil[row.name] for row in PROPERTIES}
+    return {
+        row.name: np.maximum(soil[row.name], by_key[row.floor_key]) if row.floor_key else soil[row.name]
+        for row in PROPERTIES
+    }
 
-    def raised(values: Array, key: str) -> Array:
-        floor = random.get(key, value_of(scene, key) if key else None)
-        return values if floor is None else np.maximum(values, floor)
 
-    return {name: raised(values, BY_NAME[name].floor_key) for name, values in drawn.items()}
+def distributions(scene: Any) -> dict[str, Lognormal]:
+    """Return the distribution of each property of a scene that has one by name, in the order of the table."""
+    return {row.name: law for row in PROPERTIES if (law := row.distribution(scene)) is not None}
 
 
 def marginals(scene: Any) -> dict[str, Lognormal]:
     """Return the distribution of each random property of a scene by name, in the order of the table."""
-    return {row.name: law for row in PROPERTIES if (law := row.distribution(scene)) is not None}
+    return {name: law for name, law in distributions(scene).items() if law.cov}

@@ -83,7 +83,7 @@ class Strengths:
         values = self.values[:, row, column]
         for number, own in enumerate(self.by_layer):
             values = np.where(layer == number, own[:, row, column], values)
-        if missing := np.flatnonzero(np.isnan(values[0])).tolist():
+        if missing := np.flatnonzero(np.isnan(values).any(axis=0)).tolist():
             raise ValueError(
                 f"The place ({np.ravel(x)[missing[0]]:g} m, {np.ravel(y)[missing[0]]:g} m) is not in the ground for "
                 'which the random field was built; use the sampler "circulant", which fills the whole box.'
@@ -97,7 +97,8 @@ class LayerSoil(NamedTuple):
     Attributes
     ----------
     marginals : mapping
-        Distribution [SI] of each property that is random in it by name, in the order of the table of properties.
+        Distribution [SI] of each property that has one by name, in the order of the table of properties. Those without
+        variation keep their fields, so that what is correlated with them stays the same.
     factor : ndarray of shape (n, n)
         Lower Cholesky factor of the cross-correlations of their Gaussian fields.
     field : int
@@ -105,7 +106,7 @@ class LayerSoil(NamedTuple):
     cells : ndarray of shape (ny, nx), optional
         The cells in which the layer may be read, those where it is at the centre or at a corner; None for all.
     means : mapping, optional
-        Value [SI] of the properties by name that are random in other layers alone.
+        Value [SI] of the properties by name that have a distribution in other layers alone.
     """
 
     marginals: Mapping[str, Lognormal]
@@ -113,6 +114,10 @@ class LayerSoil(NamedTuple):
     field: int = 0
     cells: NDArray[np.bool_] | None = None
     means: Mapping[str, float] | None = None
+
+    def is_random(self, name: str) -> bool:
+        """Whether a property varies in it."""
+        return name in self.marginals and self.marginals[name].cov > 0.0
 
 
 @dataclass(frozen=True)
@@ -142,7 +147,7 @@ class StrengthSampler:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the properties that are random in any layer, in the order of the table."""
-        return tuple(row.name for row in PROPERTIES if any(row.name in layer.marginals for layer in self.layers))
+        return tuple(row.name for row in PROPERTIES if any(layer.is_random(row.name) for layer in self.layers))
 
     def draw(self, seed: int, realization: int) -> Strengths:
         """Draw the properties of one realization, or their means everywhere for `BASELINE`.
@@ -152,11 +157,11 @@ class StrengthSampler:
         SamplerError
             If a value reaches the limit of its property.
         """
-        fields = {} if realization == BASELINE else self._independent(seed, realization)
+        fields = {} if realization == BASELINE or not self.names else self._independent(seed, realization)
         by_layer = [self._of_layer(number, fields, realization) for number in range(len(self.layers))]
         if self.layer is None:
             return Strengths(self.grid, self.names, by_layer[0])
-        random = np.array([[name in layer.marginals for name in self.names] for layer in self.layers])
+        random = np.array([[layer.is_random(name) for name in self.names] for layer in self.layers])
         values = np.full_like(by_layer[0], np.nan)
         for number, own in enumerate(by_layer):
             is_here = (self.layer == number) & random[number][:, None, None]
@@ -166,7 +171,8 @@ class StrengthSampler:
     def _independent(self, seed: int, realization: int) -> dict[int, Array]:
         """Draw the independent Gaussian fields of all properties, by the number of the layer that has its own."""
         # Each property has a Gaussian field of its own, whichever others are random.
-        count = 1 + max(place for place, row in enumerate(PROPERTIES) if row.name in self.names)
+        drawn = {name for layer in self.layers for name in layer.marginals}
+        count = 1 + max(place for place, row in enumerate(PROPERTIES) if row.name in drawn)
         return {
             field: self.gaussian.draw(
                 generator(seed, Stream.LAYER if field else Stream.FIELD, realization, field), count

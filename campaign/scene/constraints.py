@@ -145,7 +145,7 @@ Line = Annotated[str, must("be a line of text without control characters", str.i
 A_SHARE = must(
     "be the standard deviation over the mean, at most 10; 30 % is written 0.3", lambda cov: cov <= LARGEST_COV
 )
-Cov = Annotated[PositiveNumber, A_SHARE]
+Cov = Annotated[float, NOT_NEGATIVE, OF_A_SIZE, A_SHARE]
 # None is left out of a scene's identity, so that 0 is the same scene as no key at all.
 OptionalCov = Annotated[float, NOT_NEGATIVE, OF_A_SIZE, A_SHARE, AfterValidator(lambda cov: cov or None)] | None
 Fraction = Annotated[float, must("lie between 0 and 1", lambda value: 0.0 <= value <= 1.0)]

@@ -9,6 +9,7 @@ from campaign.scene.cost import core_seconds, output_count, particle_count, real
 from campaign.scene.first_look import LONGEST_SLIDE, TYPICAL_SLIDE, FirstLook, critical_circles
 from campaign.scene.front import front_of_particles, front_of_the_slide
 from campaign.scene.layer_soil import gives
+from campaign.scene.layers import random_properties
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
 from campaign.scene.more_ground import behind_crest, key_of
@@ -72,6 +73,7 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
             damped_slide(scene),
             short_timeout(scene),
             few_pairs(scene),
+            nothing_random(scene),
             large_campaign(scene),
             *(unusual_soil(scene, *row) for row in SOILS),
             *_unusual_layers(scene),
@@ -227,6 +229,16 @@ def few_pairs(scene: Scene) -> Complaint | None:
         "campaign.discretisation_pairs",
         "so few pairs hardly bound what half the cell changes, and the total interval may be many times as wide as the "
         f"slides scatter; use {Campaign.model_fields['discretisation_pairs'].default}, or 0 to leave the mesh out",
+    )
+
+
+def nothing_random(scene: Scene) -> Complaint | None:
+    """Warn of realizations that are all the same."""
+    if random_properties(scene) or scene.campaign.realizations == 1:
+        return None
+    return Complaint(
+        "campaign.realizations",
+        "no property has a coefficient of variation above 0: all realizations are the same, and 1 is enough",
     )
 
 

@@ -87,4 +87,4 @@ def _value(scene: Scene, name: str) -> str:
     if mean is None:
         return NONE
     shown = f"{mean * row.unit.shown_per_si:.4g} {row.unit.shown}"
-    return shown if cov is None else f"{shown} ({100 * cov:.3g} %)"
+    return f"{shown} ({100 * cov:.3g} %)" if cov else shown

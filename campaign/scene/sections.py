@@ -1,5 +1,6 @@
 """The sections of a scene, frozen and checked key by key; every number in SI units."""
 
+from math import radians
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
@@ -65,19 +66,19 @@ class Geometry(Section):
 class Cohesion(Section):
     """Lognormal peak cohesion (undrained strength with the law "tresca"), and the residual one; in Pa.
 
-    The residual is lognormal, or the same everywhere without a `residual_cov`.
+    Either is its mean everywhere where its coefficient of variation is 0 or left out.
     """
 
-    mean: PositivePressure
+    mean: Annotated[Pressure, NOT_NEGATIVE]
     cov: Cov
     residual: Annotated[Pressure, NOT_NEGATIVE]
     residual_cov: OptionalCov = None
 
 
 class FrictionAngle(Section):
-    """Lognormal peak friction angle, and the residual one, lognormal or the same everywhere; in rad."""
+    """Lognormal peak friction angle, and the residual one, each its mean everywhere without a variation; in rad."""
 
-    mean: AcuteAngle
+    mean: Annotated[Angle, must("be at least 0 deg and below 90 deg", lambda angle: 0.0 <= angle < radians(90.0))]
     cov: Cov
     residual: Annotated[Angle, NOT_NEGATIVE]
     residual_cov: OptionalCov = None

@@ -22,9 +22,6 @@ from campaign.simulation.scene_sampler import CELLS_PER_DISTANCE, correlation_of
 from campaign.statistics.release import OTHER
 from solver.water import NO_WATER
 
-NOT_RANDOM = 1e-6
-"""Coefficient of variation in the place of none, which a scene does not take for a peak strength."""
-
 SOFTER = 4.0
 """By which Young's modulus is divided: steps become twice as long."""
 
@@ -77,9 +74,8 @@ def _soil(scene: Scene) -> Iterator[Choice]:
     if water_of(scene) != NO_WATER:
         yield Choice("water", "none", ("water={}",))
     for row in (BY_NAME[name] for name in PEAKS):
-        if any((value_of(layer, row.cov_key) or 0.0) > NOT_RANDOM for layer in layers):
-            changes = _everywhere(scene, row.cov_key, f"{NOT_RANDOM:g}")
-            yield Choice(f"random {row.long_name}", "its mean", changes)
+        if any(value_of(layer, row.cov_key) for layer in layers):
+            yield Choice(f"random {row.long_name}", "its mean", _everywhere(scene, row.cov_key, "0"))
     drawn = [name for name in RESIDUALS if any(value_of(layer, BY_NAME[name].cov_key) for layer in layers)]
     if drawn:
         fixed = [change for name in drawn for change in _everywhere(scene, BY_NAME[name].cov_key, "0")]
@@ -101,16 +97,9 @@ def _everywhere(scene: Scene, key: str, value: str) -> tuple[str, ...]:
 
 
 def _pairs_without(scene: Scene, names: Iterable[str]) -> list[str]:
-    """Return the cross-correlations of pairs without those of some properties, if there are any pairs."""
-    pairs = scene.field.pairs.model_dump(exclude_none=True)
-    if not any(pairs.values()):
-        return []
-    kept = {
-        one: ", ".join(f"{other} = {rho!r}" for other, rho in partners.items() if other not in names)
-        for one, partners in pairs.items()
-        if one not in names
-    }
-    return [f"field.pairs={{{', '.join(f'{one} = {{{partners}}}' for one, partners in kept.items())}}}"]
+    """Return the changes that leave no cross-correlation of some properties with others, but for the first pair."""
+    pairs = [(one, other) for one, partners in scene.field.pairs for other, rho in partners if rho]
+    return [f"field.pairs.{one}.{other}=0" for one, other in pairs if {one, other} & {*names}]
 
 
 def _field(scene: Scene) -> Iterator[Choice]:

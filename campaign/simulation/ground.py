@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from campaign.errors import RefusalError
-from campaign.fields.properties import PROPERTIES, SoilProperty, marginals, raised_to_floor
+from campaign.fields.properties import BY_NAME, PROPERTIES, SoilProperty, marginals, raised_to_floor
 from campaign.fields.strengths import Strengths, StrengthSampler
 from campaign.record import Quantity, Record, with_dims
 from campaign.scene.ground_surface import surface_of
@@ -78,11 +78,12 @@ class Ground:
             "particle_y": self.lattice.y,
             "initial_surface": deposit_surface(self.settled, 0.5 * self.model.particle_spacing, edges),
         }
-        places |= {
-            "property": np.array([row.name for row in self.random_properties], dtype=TEXT),
-            "box_x": self.boxes.x,
-            "box_y": self.boxes.y,
-        }
+        if self.random_properties:
+            places |= {
+                "property": np.array([row.name for row in self.random_properties], dtype=TEXT),
+                "box_x": self.boxes.x,
+                "box_y": self.boxes.y,
+            }
         if self.scene.layer:
             places |= {"layer": np.array(layer_names(self.scene), dtype=TEXT), "particle_layer": self.lattice.material}
         return places | self._receptor_coordinates() if self.scene.receptor else places
@@ -168,7 +169,7 @@ class Ground:
             interrupt,
             observe,
             receptors=self.stretches,
-            field_map=self.boxes.means(field),
+            field_map=self.boxes.means(field) if self.random_properties else None,
             settled=self.settled if self.scene.numerics.gravity == "ramp" else None,
         )
 
@@ -198,22 +199,25 @@ class Ground:
         return self._with(self.draw(realization))
 
     def _with(self, field: Strengths) -> Particles:
-        drawn, values = self._at_particles(field), np.empty((len(PROPERTIES), self.n_particles))
+        raised = raised_to_floor(self._soil(field))
+        return self.in_situ._replace(**{BY_NAME[name].particle_array: values for name, values in raised.items()})
+
+    def _soil(self, field: Strengths) -> dict[str, Array]:
+        """Return all properties at the particles by name, those that are not random too."""
+        soil, drawn = {row.name: np.empty(self.n_particles) for row in PROPERTIES}, self._at_particles(field)
         for layer, is_here in self._layers():
-            raised = raised_to_floor(_random_in(layer, drawn, is_here), layer)
-            for row, value in zip(PROPERTIES, values, strict=True):
-                value[is_here] = raised.get(row.name, row.mean(layer))
-        return self.in_situ._replace(
-            **{row.particle_array: value for row, value in zip(PROPERTIES, values, strict=True)}
-        )
+            for row in PROPERTIES:
+                soil[row.name][is_here] = drawn[row.name][is_here] if row.name in drawn else row.mean(layer)
+        return soil
 
     def raised_shares(self, realization: int) -> dict[str, float]:
         """Return the share of particles at which a drawn peak is below the residual and is raised to it, by name."""
-        drawn, released = self._at_particles(self.draw(realization)), self.released(realization)
+        soil = self._soil(self.draw(realization))
+        raised, random = raised_to_floor(soil), self.random_properties
         return {
-            row.name: float(np.mean(getattr(released, row.particle_array) > drawn[row.name]))
-            for row in self.random_properties
-            if row.floor_key
+            row.name: float(np.mean(raised[row.name] > soil[row.name]))
+            for row in PROPERTIES
+            if row.floor_key and any(each.mean_key in (row.mean_key, row.floor_key) for each in random)
         }
 
     def _layers(self) -> Iterator[tuple[Scene, NDArray[np.bool_]]]:
@@ -224,11 +228,6 @@ class Ground:
     def _at_particles(self, field: Strengths) -> dict[str, Array]:
         within = np.minimum(self.lattice.x, self.model.surface.width)  # a wall may stand beyond by part of a cell
         return field.at(within, self.lattice.y, self.lattice.material)
-
-
-def _random_in(layer: Scene, drawn: Mapping[str, Array], is_here: NDArray[np.bool_]) -> dict[str, Array]:
-    """Return the properties that are random in a layer, at its particles."""
-    return {name: drawn[name][is_here] for name in marginals(layer)}
 
 
 def prepare(scene: Scene, directory: Path | None = None) -> Ground:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from campaign.fields.cholesky import CholeskySampler
 from campaign.fields.correlation import Array, Correlation, autocorrelation_distance
 from campaign.fields.cross_correlation import gaussian_matrix, lower_factor
-from campaign.fields.properties import marginals
+from campaign.fields.properties import distributions
 from campaign.fields.reference_grid import Mask, ReferenceGrid
 from campaign.fields.samplers import CirculantSampler, KroneckerSampler, Sampler
 from campaign.fields.strengths import LayerSoil, StrengthSampler
@@ -71,7 +71,7 @@ def reference_grid(scene: Scene, width: float, height: float) -> ReferenceGrid:
 
 def soil_of_layer(scene: Scene, field: int = 0) -> LayerSoil:
     """Return what the [soil] of a scene makes of the common Gaussian fields, or of those of a layer alone."""
-    laws = marginals(scene)
+    laws = distributions(scene)
     pairs = {pair: rho for pair, rho in scene.field.cross_correlations().items() if laws.keys() >= {*pair}}
     matrix = gaussian_matrix(laws, pairs, scene.field.cross_correlation_of)
     return LayerSoil(laws, lower_factor(matrix), field=field)

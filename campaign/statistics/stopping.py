@@ -42,6 +42,8 @@ class StoppingRule:
         where slides are not rare with fewer than `minimum` slides, never satisfies the rule.
     slide_probability_tolerance : float
         Half-width of the confidence interval of the probability of sliding, absolute.
+    nothing_varies : bool
+        Whether nothing is random, so that all run-outs are the same and have no variance to be known.
     """
 
     mean_tolerance: float
@@ -50,6 +52,7 @@ class StoppingRule:
     minimum: int
     block: int
     slide_probability_tolerance: float
+    nothing_varies: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,10 +118,9 @@ class Checkpoint:
 
     def knows_runout(self, rule: StoppingRule) -> bool:
         """Whether mean and variance of the run-out are within their tolerances; the mean is asked first, for speed."""
-        return (
-            self.outcomes.slides >= rule.minimum
-            and self.mean.precision <= rule.mean_tolerance
-            and self.variance.precision <= rule.variance_tolerance
+        return self.outcomes.slides >= rule.minimum and (
+            rule.nothing_varies
+            or (self.mean.precision <= rule.mean_tolerance and self.variance.precision <= rule.variance_tolerance)
         )
 
     def satisfies(self, rule: StoppingRule) -> bool:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from campaign.record import FAILED, Front, RealizationSummary
 from campaign.scene import Scene
+from campaign.scene.layers import random_properties
 from campaign.scene.sections import Campaign
 from campaign.seeds import BASELINE
 from campaign.statistics.convergence import ConvergenceHistory, history_of, is_look
@@ -140,10 +141,10 @@ class Tally:
 
 def tally_of(scene: Scene) -> Tally:
     """Return the empty account of a scene's campaign."""
-    return tally_for(scene.campaign, scene.slide.front)
+    return tally_for(scene.campaign, scene.slide.front, nothing_varies=not random_properties(scene))
 
 
-def tally_for(wanted: Campaign, front: Front) -> Tally:
+def tally_for(wanted: Campaign, front: Front, nothing_varies: bool = False) -> Tally:
     """Return the empty account of a campaign that is judged on the run-out of `front`."""
     rule = StoppingRule(
         wanted.mean_tolerance,
@@ -152,5 +153,6 @@ def tally_for(wanted: Campaign, front: Front) -> Tally:
         wanted.minimum,
         wanted.block,
         wanted.slide_probability_tolerance,
+        nothing_varies,
     )
     return Tally(wanted.realizations, rule, wanted.max_failed_fraction, front)

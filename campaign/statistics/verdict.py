@@ -28,6 +28,8 @@ def _known(latest: Checkpoint, rule: StoppingRule) -> str:
         return f"none slid, {chance}"
     if not latest.knows_runout(rule):
         return f"{outcomes.slides} slid, {chance}, and too few slide for a mean and a variance"
+    if rule.nothing_varies:
+        return f"{chance}; nothing is random, and all slides are the same"
     mean, variance = percent(latest.mean.precision), percent(latest.variance.precision)
     return f"{chance}, the mean run-out{_so_far(outcomes)} is known to {mean}, its variance to {variance}"
 

@@ -23,13 +23,13 @@ def _add_rules_of(one: str, other: str) -> None:
     # Layers in which a property is not random have nothing to correlate there.
     @RULES.on(KEYS[one, other], KEYS[other, one], *covs, in_layers=False)
     def _once_and_random(rho: float | None, again: float | None, *covs: float | None) -> str | None:
-        if rho is None:
+        if not rho:
             return None
         if one == other:
             return "a property has a correlation of 1 with itself; leave it out"
         if {one, other} == set(FIRST_PAIR):
             return "this pair has its key, field.cross_correlation; give it there, and leave it out here"
-        if again is not None and list(BY_NAME).index(one) > list(BY_NAME).index(other):
+        if again and list(BY_NAME).index(one) > list(BY_NAME).index(other):
             return f"this pair is given as {KEYS[other, one]} too; leave out one of the two"
         for row, cov in zip((BY_NAME[one], BY_NAME[other]), covs, strict=True):
             if cov is None:
@@ -43,14 +43,14 @@ def _add_rules_of(one: str, other: str) -> None:
 
 def _of_what_the_scene_has(rho: float | None, _section_left_out: None) -> str | None:
     """Refuse a pair of which a property is left out: a section has a value, None, only then."""
-    return None if rho is None else "the scene has no such property; leave the pair out"
+    return "the scene has no such property; leave the pair out" if rho else None
 
 
 @RULES.on("field.cross_correlation", OF, *(BY_NAME[name].cov_key for name in FIRST_PAIR))
 def _attainable(rho: float | None, of: str, *covs: float | None) -> str | None:
     """Refuse what no Gaussian pair gives: rho_G = ln(1 + rho d_c d_phi) / (s_c s_phi) must lie in (-1, 1)."""
     first, second = covs
-    if of != "lognormal" or rho is None or first is None or second is None:
+    if of != "lognormal" or not rho or first is None or second is None:
         return None
     lowest, highest = attainable_correlations(Lognormal(1.0, first), Lognormal(1.0, second))
     if lowest < rho < highest:
@@ -78,7 +78,7 @@ for _one, _other in KEYS:
 def _possible_together(of: str, first: float, *covs_and_pairs: float | None) -> str | None:
     covs = dict(zip(BY_NAME, covs_and_pairs, strict=False))
     laws = {name: BY_NAME[name].marginal(1.0, cov) for name, cov in covs.items() if cov is not None}
-    given = {pair: rho for pair, rho in zip(KEYS, covs_and_pairs[len(covs) :], strict=True) if rho is not None}
+    given = {pair: rho for pair, rho in zip(KEYS, covs_and_pairs[len(covs) :], strict=True) if rho}
     pairs = {pair: rho for pair, rho in ({FIRST_PAIR: first} | given).items() if laws.keys() >= set(pair)}
     if any(one == other or _attainable(rho, of, covs[one], covs[other]) for (one, other), rho in pairs.items()):
         return None

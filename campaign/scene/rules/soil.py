@@ -14,6 +14,8 @@ EXTREME_QUANTILE = 5.5
 FRICTIONLESS = "tresca"
 """The law without a friction angle."""
 
+NO_STRENGTH = "soil without cohesion and friction is a liquid, which stands at no slope; give one of both"
+
 RULES = Rules()
 
 
@@ -51,6 +53,16 @@ def _friction_angle_that_is_not_read(_mean: float, law: str) -> str | None:
     return None
 
 
+@RULES.on("soil.cohesion.mean", "soil.friction_angle.mean")
+def _some_strength(cohesion: float, friction_angle: float) -> str | None:
+    return NO_STRENGTH if cohesion == 0.0 and friction_angle == 0.0 else None
+
+
+@RULES.on("soil.cohesion.mean", "soil.law")
+def _some_undrained_strength(cohesion: float, law: str) -> str | None:
+    return NO_STRENGTH if cohesion == 0.0 and law == FRICTIONLESS else None
+
+
 @RULES.on("soil.dilation_angle", "soil.law")
 def _undrained_dilation(dilation: float, law: str) -> str | None:
     if law == FRICTIONLESS and dilation > 0.0:
@@ -69,7 +81,7 @@ def _add_rules_of(row: SoilProperty) -> None:
         return None
 
     def within_limit(cov: float | None, mean: float) -> str | None:
-        if cov is None:
+        if not cov:
             return None
         if mean <= 0.0:
             return (

@@ -113,3 +113,10 @@ def test_a_toe_that_is_not_the_slopes_is_told_and_not_the_front_that_follows_fro
     look = look_at(scene)
     assert front_of_particles(scene, look) is not None
     assert [complaint.key for complaint in warnings(scene, look)] == ["geometry.toe"]
+
+
+def test_realizations_that_are_all_the_same_are_foretold():
+    certain = ["soil.cohesion.cov=0", "soil.friction_angle.cov=0"]
+    (told,) = [text for text in warned(*certain) if "coefficient of variation" in text]
+    assert "all realizations are the same, and 1 is enough" in told
+    assert not [text for text in warned(certain[0]) if "coefficient of variation" in text]

@@ -90,3 +90,19 @@ def test_a_height_is_that_above_the_toe_wherever_it_is_told() -> None:
 @pytest.mark.parametrize("key", ["soil.cohesion.cov", "soil.friction_angle.residual_cov"])
 def test_a_coefficient_of_variation_in_per_cent_is_refused(key: str) -> None:
     assert "at most 10; 30 % is written 0.3" in complaint(f"{key}=30.0")
+
+
+NO_COHESION = ("soil.cohesion.mean=0 kPa", "soil.cohesion.residual=0 kPa")
+NO_FRICTION = ("soil.friction_angle.mean=0 deg", "soil.friction_angle.residual=0 deg")
+
+
+def test_a_property_may_be_certain_or_absent() -> None:
+    load_scene("ma2023", ["soil.cohesion.cov=0", "field.cross_correlation_of=lognormal"])
+    load_scene("ma2023", [*NO_COHESION, "soil.cohesion.cov=0"])
+    load_scene("ma2023", [*NO_FRICTION, "soil.friction_angle.cov=0"])
+
+
+def test_what_is_certain_or_absent_does_not_vary() -> None:
+    assert "a lognormal peak cohesion needs a mean above zero" in complaint(*NO_COHESION)
+    nothing = complaint(*NO_COHESION, *NO_FRICTION, "soil.cohesion.cov=0", "soil.friction_angle.cov=0")
+    assert "soil without cohesion and friction is a liquid" in nothing

@@ -70,3 +70,27 @@ def test_the_runout_is_that_of_constant_residual_strength_as_scatter_vanishes(co
     one, other = (ground.simulate(4).values["final_runout_mass"] for ground in (constant, still))
     assert one == pytest.approx(other, abs=0.01)
     assert not np.array_equal(still.released(4).cohesion_residual, constant.released(4).cohesion_residual)
+
+
+def test_a_property_without_variation_is_its_mean_and_leaves_the_others_as_they_are(constant):
+    certain = prepare(small_scene("soil.cohesion.cov=0"))
+    assert certain.draw(4).names == ("friction_angle",)
+    here, there = certain.released(4), constant.released(4)
+    assert np.unique(here.cohesion).tolist() == [certain.scene.soil.cohesion.mean]
+    assert np.array_equal(here.friction_angle, there.friction_angle)
+
+
+def test_a_peak_without_variation_is_raised_to_random_residual_strength():
+    ground = prepare(small_scene("soil.cohesion.cov=0", "soil.cohesion.residual_cov=0.9"))
+    released = ground.released(4)
+    assert np.array_equal(released.cohesion, np.maximum(ground.scene.soil.cohesion.mean, released.cohesion_residual))
+    assert ground.raised_shares(4)["cohesion"] == np.mean(released.cohesion > ground.scene.soil.cohesion.mean) > 0.0
+
+
+def test_a_campaign_in_which_nothing_is_random_has_the_same_realization_again():
+    ground = prepare(small_scene("soil.cohesion.cov=0", "soil.friction_angle.cov=0"))
+    assert "property" not in ground.coordinates
+    assert "field_map" not in ground.quantities
+    one, other, mean = ground.simulate(0).values, ground.simulate(4).values, ground.simulate_mean().values
+    assert np.array_equal(one["runout"], other["runout"])
+    assert np.array_equal(one["runout"], mean["runout"])

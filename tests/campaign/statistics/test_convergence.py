@@ -251,3 +251,10 @@ def test_a_verdict_on_run_outs_cut_short_says_so(rule):
     verdict = judge(normal_runouts(5, 150), statuses, rule).verdict
     assert "as far as slides came (15 were cut short), is known to" in verdict
     assert "cut short" not in judge(normal_runouts(5, 150), [Status.slid] * 150, rule).verdict
+
+
+def test_slides_that_are_all_the_same_are_enough_at_the_second_look():
+    """Where nothing is random there is no variance to be known."""
+    found = apply(np.full(150, 10.8), replace(RULE, nothing_varies=True))
+    assert found.converged_at == 150
+    assert found.verdict.endswith("nothing is random, and all slides are the same, at 95 % confidence")
