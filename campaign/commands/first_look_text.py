@@ -15,7 +15,7 @@ from campaign.scene.cost import (
 )
 from campaign.scene.first_look import LONGEST_SLIDE, SHORTEST_SLIDE, TYPICAL_SLIDE, FirstLook
 from campaign.scene.ground_water import water_words
-from campaign.scene.layer_table import HEADINGS, layer_rows, told_by_layer
+from campaign.scene.layer_table import HEADINGS, layer_rows, told_by_layer, trend_words
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.outlook import may_slide, outlook
 from campaign.scene.sections import Softening
@@ -34,6 +34,7 @@ def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
         "ground": _ground(look),
         **layers,
         "toe": _toe(scene, look),
+        "strength": trend_words(scene),
         "water": water_words(scene),
         "factor of safety": _factors(look),
         "softening": _softenings(scene),

@@ -12,6 +12,8 @@ import numpy as np
 
 from campaign.fields.correlation import Array
 from campaign.fields.marginals import Lognormal
+from campaign.fields.trend import Trend
+from solver.surface import Surface
 
 
 class Unit(NamedTuple):
@@ -47,6 +49,8 @@ class SoilProperty(NamedTuple):
         Of its field.
     mean_key, cov_key : str
         Keys of the scene that hold mean and coefficient of variation. Without the latter, or with 0, it is not random.
+    gradient_key : str
+        Key of the scene that holds by how much the mean grows per metre of depth.
     particle_array : str
         The array of `solver.particles.Particles` that its values at the particles become.
     long_name, symbol : str
@@ -63,6 +67,7 @@ class SoilProperty(NamedTuple):
     name: str
     mean_key: str
     cov_key: str
+    gradient_key: str
     particle_array: str
     long_name: str
     symbol: str
@@ -72,13 +77,26 @@ class SoilProperty(NamedTuple):
     marginal: type[Lognormal] = Lognormal
 
     def mean(self, scene: Any) -> float:
-        """Return its mean in a scene, in SI; 0 if the scene leaves the property out."""
+        """Return its mean in a scene at the top of the soil, in SI; 0 if the scene leaves the property out."""
         return value_of(scene, self.mean_key) or 0.0
 
+    def gradient(self, scene: Any) -> float:
+        """Return by how much its mean grows below the top of the soil, in SI per m."""
+        return value_of(scene, self.gradient_key) or 0.0
+
+    def reference(self, scene: Any) -> float:
+        """Return the mean in SI of the field that `trend` multiplies: that at the top, or 1 m below it if that is 0."""
+        return self.mean(scene) or self.gradient(scene)
+
+    def trend(self, scene: Any, top: Surface) -> Trend | None:
+        """Return how the mean grows below the top of the soil, over `reference`; None if it does not."""
+        gradient, reference = self.gradient(scene), self.reference(scene)
+        return Trend(self.mean(scene) / reference, gradient / reference, top) if gradient else None
+
     def distribution(self, scene: Any) -> Lognormal | None:
-        """Return its distribution in a scene, in SI, with a variation of 0 as well; None if the scene gives none."""
+        """Return its distribution in a scene without its trend, in SI, also without variation; None if it has none."""
         cov = value_of(scene, self.cov_key)
-        return None if cov is None else self.marginal(self.mean(scene), cov)
+        return None if cov is None else self.marginal(self.reference(scene), cov)
 
     @property
     def identifier(self) -> str:
@@ -91,6 +109,7 @@ PROPERTIES = (
         name="cohesion",
         mean_key="soil.cohesion.mean",
         cov_key="soil.cohesion.cov",
+        gradient_key="soil.cohesion.gradient",
         particle_array="cohesion",
         long_name="peak cohesion",
         symbol="c",
@@ -101,6 +120,7 @@ PROPERTIES = (
         name="friction_angle",
         mean_key="soil.friction_angle.mean",
         cov_key="soil.friction_angle.cov",
+        gradient_key="soil.friction_angle.gradient",
         particle_array="friction_angle",
         long_name="peak friction angle",
         symbol="phi",
@@ -112,6 +132,7 @@ PROPERTIES = (
         name="cohesion_residual",
         mean_key="soil.cohesion.residual",
         cov_key="soil.cohesion.residual_cov",
+        gradient_key="soil.cohesion.residual_gradient",
         particle_array="cohesion_residual",
         long_name="residual cohesion",
         symbol="c_r",
@@ -121,6 +142,7 @@ PROPERTIES = (
         name="friction_angle_residual",
         mean_key="soil.friction_angle.residual",
         cov_key="soil.friction_angle.residual_cov",
+        gradient_key="soil.friction_angle.residual_gradient",
         particle_array="friction_angle_residual",
         long_name="residual friction angle",
         symbol="phi_r",

@@ -19,6 +19,7 @@ from campaign.fields.marginals import Lognormal
 from campaign.fields.properties import BY_NAME, PROPERTIES
 from campaign.fields.reference_grid import ReferenceGrid
 from campaign.fields.samplers import Sampler
+from campaign.fields.trend import Trend
 from campaign.seeds import BASELINE, Stream, generator
 
 if TYPE_CHECKING:
@@ -36,20 +37,45 @@ class Strengths:
     names : tuple of str
         Of the n properties, see `campaign.fields.properties`.
     values : ndarray of shape (n, ny, nx)
-        In SI units, of the layer in which the centre of a cell lies; NaN in cells that the sampler left out as not in
-        the ground, and where a property that is random in another layer is not.
+        Without trends, in SI units, of the layer in which the centre of a cell lies; NaN in cells that the sampler left
+        out as not in the ground, and where a property that varies in another layer does not.
     by_layer : tuple of ndarrays of shape (n, ny, nx)
-        The values that each of several layers has, or would have, in all cells; not random ones too. Empty for one.
+        The values that each of several layers has, or would have, in all cells; constant ones too. Empty for one.
+    trends : tuple of mapping
+        Of each layer: by what the values of a property grow with depth, by its name.
+    layer : ndarray of shape (ny, nx), optional
+        Number of the layer in which the centre of each cell lies; None for a single one.
+    random : ndarray of shape (layers, n), optional
+        Which properties are random in which layer; None for all.
     """
 
     grid: ReferenceGrid
     names: tuple[str, ...]
     values: Array
     by_layer: tuple[Array, ...] = ()
+    trends: tuple[Mapping[str, Trend], ...] = ()
+    layer: NDArray[np.intp] | None = None
+    random: NDArray[np.bool_] | None = None
 
     def __getitem__(self, name: str) -> Array:
-        """Return the values of a property, shape (ny, nx)."""
-        return np.asarray(self.values[self.names.index(name)])
+        """Return the values of a property with its trend, shape (ny, nx)."""
+        layer = 0 if self.layer is None else self.layer
+        return self._grown(name, self.values[self.names.index(name)], self.grid.x, self.grid.y[:, None], layer)
+
+    def _grown(self, name: str, values: Array, x: Array, y: Array, layer: NDArray[np.integer[Any]] | int) -> Array:
+        """Return values that were drawn without trend for places `x`, `y` [m] in layers with it."""
+        for number, trends in enumerate(self.trends):
+            if name in trends:
+                values = np.where(layer == number, values * trends[name](x, y), values)
+        return values
+
+    def random_values(self) -> Array:
+        """Return the values without trend of what is random anywhere, (n, ny, nx); NaN in layers where it is not."""
+        if self.random is None:
+            return self.values
+        layer = np.zeros(self.grid.shape, dtype=np.intp) if self.layer is None else self.layer
+        is_here = self.random.T[:, layer]  # (n, ny, nx)
+        return np.where(is_here, self.values, np.nan)[self.random.any(axis=0)]
 
     def to_dataset(self) -> "xr.Dataset":
         """Return the fields as an xarray dataset by elevation `y` and place `x` (m)."""
@@ -72,6 +98,7 @@ class Strengths:
     def at(self, x: Array, y: Array, layer: NDArray[np.integer[Any]] | int = 0) -> dict[str, Array]:
         """Read the properties, by name, at the initial places `x`, `y` [m] of particles; each of the shape of `x`.
 
+        The trend is that at the place, the rest that of its cell.
         A cell that an interface cuts has the soil of several layers, and `layer` is the number of the particle's own.
 
         Raises
@@ -88,7 +115,7 @@ class Strengths:
                 f"The place ({np.ravel(x)[missing[0]]:g} m, {np.ravel(y)[missing[0]]:g} m) is not in the ground for "
                 'which the random field was built; use the sampler "circulant", which fills the whole box.'
             )
-        return dict(zip(self.names, values, strict=True))
+        return {name: self._grown(name, own, x, y, layer) for name, own in zip(self.names, values, strict=True)}
 
 
 class LayerSoil(NamedTuple):
@@ -106,14 +133,17 @@ class LayerSoil(NamedTuple):
     cells : ndarray of shape (ny, nx), optional
         The cells in which the layer may be read, those where it is at the centre or at a corner; None for all.
     means : mapping, optional
-        Value [SI] of the properties by name that have a distribution in other layers alone.
+        Value [SI] without trend of the properties by name that have no distribution.
+    trends : mapping, optional
+        By what values of properties grow with depth, by name.
     """
 
     marginals: Mapping[str, Lognormal]
     factor: Array
     field: int = 0
     cells: NDArray[np.bool_] | None = None
-    means: Mapping[str, float] | None = None
+    means: Mapping[str, float] = {}
+    trends: Mapping[str, Trend] = {}
 
     def is_random(self, name: str) -> bool:
         """Whether a property varies in it."""
@@ -146,8 +176,12 @@ class StrengthSampler:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the properties that are random in any layer, in the order of the table."""
-        return tuple(row.name for row in PROPERTIES if any(layer.is_random(row.name) for layer in self.layers))
+        """Names of the properties that vary in any layer, at random or with depth, in the order of the table."""
+        return tuple(
+            row.name
+            for row in PROPERTIES
+            if any(layer.is_random(row.name) or row.name in layer.trends for layer in self.layers)
+        )
 
     def draw(self, seed: int, realization: int) -> Strengths:
         """Draw the properties of one realization, or their means everywhere for `BASELINE`.
@@ -157,16 +191,18 @@ class StrengthSampler:
         SamplerError
             If a value reaches the limit of its property.
         """
-        fields = {} if realization == BASELINE or not self.names else self._independent(seed, realization)
-        by_layer = [self._of_layer(number, fields, realization) for number in range(len(self.layers))]
-        if self.layer is None:
-            return Strengths(self.grid, self.names, by_layer[0])
         random = np.array([[layer.is_random(name) for name in self.names] for layer in self.layers])
+        fields = self._independent(seed, realization) if realization != BASELINE and random.any() else {}
+        by_layer = [self._of_layer(number, fields, realization) for number in range(len(self.layers))]
+        trends, is_random = tuple(layer.trends for layer in self.layers), None if random.all() else random
+        if self.layer is None:
+            return Strengths(self.grid, self.names, by_layer[0], trends=trends, random=is_random)
         values = np.full_like(by_layer[0], np.nan)
         for number, own in enumerate(by_layer):
-            is_here = (self.layer == number) & random[number][:, None, None]
+            varies = random[number] | [name in trends[number] for name in self.names]
+            is_here = (self.layer == number) & varies[:, None, None]
             values[is_here] = own[is_here]
-        return Strengths(self.grid, self.names, values, tuple(by_layer))
+        return Strengths(self.grid, self.names, values, tuple(by_layer), trends, self.layer, is_random)
 
     def _independent(self, seed: int, realization: int) -> dict[int, Array]:
         """Draw the independent Gaussian fields of all properties, by the number of the layer that has its own."""
@@ -190,11 +226,13 @@ class StrengthSampler:
         drawn = dict(zip(layer.marginals, mixed, strict=False))
         for name, value in zip(self.names, values, strict=True):
             law = layer.marginals.get(name)
-            mean = (layer.means or {})[name] if law is None else law.mean
+            mean = layer.means[name] if law is None else law.mean
             value[self.cells] = np.ravel(np.asarray(mean) if law is None or name not in drawn else law(drawn[name]))
             if name in drawn:
                 is_read = self.cells if layer.cells is None else self.cells & layer.cells
-                refuse_beyond_limit(name, float(np.max(value[is_read], initial=0.0)), realization, number)
+                trend = layer.trends.get(name)
+                largest = value if trend is None else value * trend(self.grid.x, self.grid.y[:, None])
+                refuse_beyond_limit(name, float(np.max(largest[is_read], initial=0.0)), realization, number)
         return values
 
 

@@ -8,7 +8,20 @@ from typing import Annotated, Any, NamedTuple
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
-from campaign.scene.units import LENGTH, NUMBER, Angle, Area, Kind, Length, Pressure, Time, of_a_size, si_value
+from campaign.scene.units import (
+    LENGTH,
+    NUMBER,
+    Angle,
+    AngleGradient,
+    Area,
+    Kind,
+    Length,
+    Pressure,
+    PressureGradient,
+    Time,
+    of_a_size,
+    si_value,
+)
 
 LARGEST_COV = 10.0
 """Beyond which a coefficient of variation is one in per cent."""
@@ -147,7 +160,11 @@ A_SHARE = must(
 )
 Cov = Annotated[float, NOT_NEGATIVE, OF_A_SIZE, A_SHARE]
 # None is left out of a scene's identity, so that 0 is the same scene as no key at all.
-OptionalCov = Annotated[float, NOT_NEGATIVE, OF_A_SIZE, A_SHARE, AfterValidator(lambda cov: cov or None)] | None
+OR_NONE = AfterValidator(lambda value: value or None)
+OptionalCov = Annotated[float, NOT_NEGATIVE, OF_A_SIZE, A_SHARE, OR_NONE] | None
+GROWS = must("not be negative; ground that is weaker below is a layer of its own", lambda value: value >= 0.0)
+PressureGrowth = Annotated[PressureGradient, GROWS, OR_NONE] | None
+AngleGrowth = Annotated[AngleGradient, GROWS, OR_NONE] | None
 Fraction = Annotated[float, must("lie between 0 and 1", lambda value: 0.0 <= value <= 1.0)]
 OpenFraction = Annotated[
     float, must("lie between 0 and 1, both excluded; 95 % is written 0.95", lambda value: 0.0 < value < 1.0)

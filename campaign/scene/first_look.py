@@ -6,10 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from campaign.fields.properties import BY_NAME
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.ground_water import carried_share, saturated_unit_weight, water_of
-from campaign.scene.layers import interfaces_of, layer_at, layer_scenes
+from campaign.scene.layers import interfaces_of, layer_at, layer_scenes, tops_of
 from campaign.scene.limit_equilibrium import SlipCircle, Strata, critical_circle, factor_on
 from campaign.scene.sections import FrictionAngle
 from campaign.scene.softening import share_left
@@ -91,9 +92,9 @@ def critical_circles(scene: Scene, added: float = 0.0) -> tuple[SlipCircle | Non
     Elevations are above the base, which is as many m deeper as are `added` to the lowest layer.
     """
     surface, layers = raised(surface_of(scene.geometry), added), layer_scenes(scene)
-    peak, residual = _circle(surface, strata_of(scene, [_peak(layer) for layer in layers], added)), None
+    peak, residual = _circle(surface, strata_of(scene, [mean_peak(layer) for layer in layers], added)), None
     if any(_softens(layer) for layer in layers):
-        strengths = [_residual(layer) if _softens(layer) else _peak(layer) for layer in layers]
+        strengths = [_residual(layer) if _softens(layer) else mean_peak(layer) for layer in layers]
         residual = _circle(surface, strata_of(scene, strengths, added))
     return peak, residual
 
@@ -104,18 +105,35 @@ def raised(line: Surface, by: float) -> Surface:
 
 
 class Strength(NamedTuple):
-    """Cohesion in Pa and friction angle in rad."""
+    """Cohesion in Pa and friction angle in rad at the top of a layer, and by how much they grow below it, per m."""
 
     cohesion: float
     friction_angle: float
+    cohesion_gradient: float = 0.0
+    friction_gradient: float = 0.0
+
+    def at(self, depth: float) -> tuple[float, float]:
+        """Return cohesion and friction angle at a depth in m below the top."""
+        return self.cohesion + self.cohesion_gradient * depth, self.friction_angle + self.friction_gradient * depth
+
+    def times(self, of_cohesion: float, of_friction: float) -> "Strength":
+        """Return so many times the cohesion, and so many times the friction angle."""
+        factors = of_cohesion, of_friction, of_cohesion, of_friction
+        return Strength(*(factor * value for factor, value in zip(factors, self, strict=True)))
 
 
-def _peak(scene: Scene) -> Strength:
-    return Strength(scene.soil.cohesion.mean, (scene.soil.friction_angle or NO_FRICTION).mean)
+def mean_peak(scene: Scene) -> Strength:
+    """Return the mean peak strength of a soil."""
+    return _means(scene, "cohesion", "friction_angle")
 
 
 def _residual(scene: Scene) -> Strength:
-    return Strength(scene.soil.cohesion.residual, (scene.soil.friction_angle or NO_FRICTION).residual)
+    return _means(scene, "cohesion_residual", "friction_angle_residual")
+
+
+def _means(scene: Scene, *names: str) -> Strength:
+    rows = [BY_NAME[name] for name in names]
+    return Strength(*(row.mean(scene) for row in rows), *(row.gradient(scene) for row in rows))
 
 
 def _softens(scene: Scene) -> bool:
@@ -124,19 +142,20 @@ def _softens(scene: Scene) -> bool:
 
 def strata_of(scene: Scene, strengths: Sequence[Strength], added: float = 0.0) -> Strata:
     """Return the layers of a scene, each with a strength, above so many m of `added` ground."""
-    cohesions, friction_angles = zip(*strengths, strict=True)
+    cohesions, friction_angles, of_cohesion, of_friction = zip(*strengths, strict=True)
     moist, saturated = zip(*((soil.unit_weight, saturated_unit_weight(soil)) for soil in scene.soils), strict=True)
     interfaces = tuple(raised(top, added) for top in interfaces_of(scene))
-    return Strata(cohesions, friction_angles, moist, interfaces, saturated, water_of(scene).raised(added))
+    water, tops = water_of(scene).raised(added), tuple(raised(top, added) for top in tops_of(scene))
+    return Strata(cohesions, friction_angles, moist, interfaces, saturated, water, of_cohesion, of_friction, tops)
 
 
 def braking_friction(scene: Scene, surface: Surface, height: float) -> float:
     """Return what brakes a slide ahead of the toe, over its weight.
 
     It is ``(1 - r) tan(phi) + c / (gamma d) - tan(beta)``, and 0.05 at least.
-    Strength c, phi is what softening has left after a slip of half the height, of the layer at the toe; r is the share
-    of the weight that the pore pressure carries there, d is 0.3 heights, and beta the inclination of the ground over
-    two heights ahead of the toe. Gentle fans of weak soil brake little.
+    Strength c, phi is what softening has left after a slip of half the height, of the layer at the toe, d below its
+    top; r is the share of the weight that the pore pressure carries there, d is 0.3 heights, and beta the inclination
+    of the ground over two heights ahead of the toe. Gentle fans of weak soil brake little.
     """
     toe_x, toe_y = surface.toe
     below_toe = np.array([toe_x]), np.array([toe_y - BELOW_TOE * height])
@@ -144,12 +163,12 @@ def braking_friction(scene: Scene, surface: Surface, height: float) -> float:
     effective = 1.0 - float(carried_share(scene, *below_toe)[0])
     layer = layer_scenes(scene)[at_toe]
     left = share_left(layer.soil.softening, 0.5 * height, scene.numerics.locking == "none")
-    cohesion, angle = (
-        residual + (peak - residual) * left for peak, residual in zip(_peak(layer), _residual(layer), strict=True)
-    )
+    depth = DEPTH * height
+    peaks, residuals = mean_peak(layer).at(depth), _residual(layer).at(depth)
+    cohesion, angle = (residual + (peak - residual) * left for peak, residual in zip(peaks, residuals, strict=True))
     end = min(toe_x + 2.0 * height, surface.width)
     descent = (toe_y - float(surface.height_at(np.array([end]))[0])) / (end - toe_x)
-    return max(LEAST_FRICTION, effective * tan(angle) + cohesion / (layer.soil.unit_weight * DEPTH * height) - descent)
+    return max(LEAST_FRICTION, effective * tan(angle) + cohesion / (layer.soil.unit_weight * depth) - descent)
 
 
 def _circle(surface: Surface, strata: Strata) -> SlipCircle | None:
@@ -176,13 +195,13 @@ def _variance(scene: Scene, surface: Surface, circle: SlipCircle, varied: set[in
     def factor(cohesions: float, friction_angles: float) -> float:
         """Return it for strengths that are so many hundredths of a standard deviation above their means."""
         strengths = [
-            Strength(
-                peak.cohesion * (1.0 + 0.01 * cohesions * soil.cohesion.cov),
-                peak.friction_angle * (1.0 + 0.01 * friction_angles * (soil.friction_angle or NO_FRICTION).cov),
+            peak.times(
+                1.0 + 0.01 * cohesions * soil.cohesion.cov,
+                1.0 + 0.01 * friction_angles * (soil.friction_angle or NO_FRICTION).cov,
             )
             if number in varied
             else peak
-            for number, (soil, peak) in enumerate(zip(soils, map(_peak, layers), strict=True))
+            for number, (soil, peak) in enumerate(zip(soils, map(mean_peak, layers), strict=True))
         ]
         return factor_on(circle, surface, strata_of(scene, strengths))
 

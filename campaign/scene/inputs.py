@@ -63,6 +63,7 @@ INPUTS = (
     Input("soil.softening.reference_cell", "reference cell of softening"),
     Input(INTERNAL_LENGTH, "internal length of softening"),
     *(Input(row.mean_key, f"mean {row.long_name}", row.cov_key) for row in PROPERTIES),
+    *(Input(row.gradient_key, f"growth of the {row.long_name} with depth") for row in PROPERTIES),
     Input("soil.unit_weight", "unit weight"),
     Input("soil.saturated_unit_weight", "saturated unit weight"),
     Input("water.r_u", "pore pressure ratio r_u"),

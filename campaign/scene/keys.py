@@ -7,6 +7,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from campaign.fields.correlation import KERNELS
+from campaign.fields.properties import PROPERTIES
 from campaign.scene.comparison import kind_of
 from campaign.scene.sections import SceneFile, Soil
 from campaign.scene.units import shown_in_unit
@@ -22,6 +23,7 @@ DEPENDS = {
     "soil.saturated_unit_weight": "unit_weight",
     "soil.cohesion.residual_cov": "0",
     "soil.friction_angle.residual_cov": "0",
+    **{row.gradient_key: "0" for row in PROPERTIES},
 }
 """What holds in place of keys that are None by default."""
 

@@ -6,12 +6,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from campaign.fields.properties import BY_NAME, value_of
+from campaign.fields.properties import BY_NAME, PROPERTIES, value_of
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.layers import interfaces_of, layer_names, layer_scenes, thickness_above
 from campaign.scene.scene import Scene
 from campaign.scene.units import UNIT_WEIGHT, shown_in_unit
-from campaign.terminal import listing
+from campaign.terminal import as_sentence, listing
 
 PLACES = 500
 """At which thicknesses are measured."""
@@ -62,6 +62,23 @@ def told_by_layer(scene: Scene, words: Callable[[Scene], str]) -> str:
     return "; ".join(f"{listing(names)}: {each}" for each, names in told.items())
 
 
+def trend_words(scene: Scene) -> str | None:
+    """Say by how much means grow with depth; None where none does."""
+    if not any(row.gradient(layer) for layer in layer_scenes(scene) for row in PROPERTIES):
+        return None
+    return as_sentence(told_by_layer(scene, _trends))
+
+
+def _trends(scene: Scene) -> str:
+    told = [
+        f"the mean {row.long_name} grows by {row.unit.show(row.gradient(scene))} per metre of depth, from "
+        f"{row.unit.show(row.mean(scene))}"
+        for row in PROPERTIES
+        if row.gradient(scene)
+    ]
+    return listing(told) if told else "does not grow with depth"
+
+
 def thicknesses(scene: Scene) -> list[NDArray[np.float64]]:
     """Return the thickness in m of each layer at places between the walls."""
     surface = surface_of(scene.geometry)
@@ -87,4 +104,6 @@ def _value(scene: Scene, name: str) -> str:
     if mean is None:
         return NONE
     shown = f"{mean * row.unit.shown_per_si:.4g} {row.unit.shown}"
+    if gradient := row.gradient(scene):
+        shown = f"{shown} + {gradient * row.unit.shown_per_si:.4g} {row.unit.shown}/m"
     return f"{shown} ({100 * cov:.3g} %)" if cov else shown

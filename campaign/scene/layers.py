@@ -47,6 +47,12 @@ def interfaces_of(scene: Scene) -> tuple[Surface, ...]:
     return tuple(interfaces[1:])
 
 
+def tops_of(scene: Scene) -> tuple[Surface, ...]:
+    """Return the top of each layer as it is drawn, from which its depth counts also where it is cut."""
+    surface = surface_of(scene.geometry)
+    return surface, *(_drawn_top(layer, surface) for layer in scene.layer)
+
+
 def _drawn_top(layer: Layer, surface: Surface) -> Surface:
     if layer.depth is not None:
         return Surface(surface.x, surface.y - layer.depth)

@@ -74,14 +74,30 @@ NO_CIRCLE = SlipCircle(np.inf, np.nan, np.nan, np.nan, np.nan, np.nan)
 
 
 class Strata(NamedTuple):
-    """Layers of the ground from the surface down, each with one strength everywhere."""
+    """Layers of the ground from the surface down, each with one strength everywhere, or one that grows with depth."""
 
-    cohesion: tuple[float, ...]  # Pa
+    cohesion: tuple[float, ...]  # Pa, at the top of each layer
     friction_angle: tuple[float, ...]  # rad
     unit_weight: tuple[float, ...]  # N/m3
     interfaces: tuple[Surface, ...] = ()  # the k-th is the top of the layer k + 1, nowhere above those before
     saturated_unit_weight: tuple[float, ...] = ()  # N/m3, below a water table; none given: the same
     water: Water = NO_WATER
+    cohesion_gradient: tuple[float, ...] = ()  # Pa/m; none given: 0
+    friction_gradient: tuple[float, ...] = ()  # rad/m
+    tops: tuple[Surface, ...] = ()  # from which they grow, that of the first included; needed with a gradient
+
+    def strength_at(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """Return cohesion in Pa and the tangent of the friction angle at places."""
+        layer = layer_at(self.interfaces, x, y)
+        cohesion, tangent = np.asarray(self.cohesion)[layer], np.tan(self.friction_angle)[layer]
+        if not any(self.cohesion_gradient) and not any(self.friction_gradient):
+            return cohesion, tangent
+        depth = np.zeros(layer.shape)
+        for number, top in enumerate(self.tops):
+            depth = np.where(layer == number, np.maximum(top.height_at(x) - y, 0.0), depth)
+        cohesion = cohesion + np.asarray(self.cohesion_gradient)[layer] * depth
+        angle = np.asarray(self.friction_angle)[layer] + np.asarray(self.friction_gradient)[layer] * depth
+        return cohesion, np.tan(angle)
 
 
 def critical_circle(surface: Surface, strata: Strata) -> SlipCircle:
@@ -172,12 +188,10 @@ def _slices(surface: Surface, strata: Strata, x: Array, base: Array, width: Arra
     weight = _weight_above(surface, strata, x, base)
     pore_pressure = strata.water.pore_pressure(x, base, weight) - strata.water.standing_pressure(base)
     weight = weight - strata.water.uplift(surface.height_at(x), base)
-    places = BASE_PLACES if strata.interfaces else 1
-    aside = (width * ((np.arange(places) + 0.5) / places - 0.5))[..., None, :]
-    layer = layer_at(strata.interfaces, x[..., None] + aside, base[..., None] - (sine / cosine)[..., None] * aside)
-    cohesion, tangent = (
-        np.asarray(each)[layer].mean(axis=-1) for each in (strata.cohesion, np.tan(strata.friction_angle))
-    )
+    count = BASE_PLACES if strata.interfaces else 1
+    aside = (width * ((np.arange(count) + 0.5) / count - 0.5))[..., None, :]
+    places = x[..., None] + aside, base[..., None] - (sine / cosine)[..., None] * aside
+    cohesion, tangent = (each.mean(axis=-1) for each in strata.strength_at(*places))
     return _Slices(weight * width, pore_pressure * width, cohesion * width, tangent, sine, cosine)
 
 

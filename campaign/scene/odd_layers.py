@@ -6,7 +6,7 @@ from math import tan
 import numpy as np
 
 from campaign.scene.complaints import Complaint
-from campaign.scene.first_look import FirstLook
+from campaign.scene.first_look import FirstLook, mean_peak
 from campaign.scene.layer_table import thicknesses
 from campaign.scene.layers import interfaces_of, layer_scenes
 from campaign.scene.scene import Scene
@@ -51,11 +51,12 @@ def odd_layers(scene: Scene, look: FirstLook) -> Iterator[Complaint]:
 
 
 def _is_weak(scene: Scene, number: int, height: float) -> bool:
-    """Whether a layer is weaker than those above and below, under the weight of half the height of the slope."""
+    """Whether a layer is weaker in its middle than those above and below, under half the height of the slope."""
     strengths = []
-    for each in layer_scenes(scene)[max(0, number - 1) : number + 2]:
-        angle = 0.0 if each.soil.friction_angle is None else each.soil.friction_angle.mean
-        strengths.append(each.soil.cohesion.mean + 0.5 * height * scene.soil.unit_weight * tan(angle))
+    middles = [0.5 * float(each.max()) for each in thicknesses(scene)]
+    for each, depth in [*zip(layer_scenes(scene), middles, strict=True)][max(0, number - 1) : number + 2]:
+        cohesion, angle = mean_peak(each).at(depth)
+        strengths.append(cohesion + 0.5 * height * scene.soil.unit_weight * tan(angle))
     return min(range(len(strengths)), key=strengths.__getitem__) == 1
 
 

@@ -11,6 +11,7 @@ from campaign.scene.constraints import (
     NOT_NEGATIVE,
     POSITIVE,
     AcuteAngle,
+    AngleGrowth,
     Count,
     Cov,
     Fraction,
@@ -24,6 +25,7 @@ from campaign.scene.constraints import (
     PositiveNumber,
     PositivePressure,
     PositiveTime,
+    PressureGrowth,
     Profile,
     RightAngle,
     Seed,
@@ -66,22 +68,30 @@ class Geometry(Section):
 class Cohesion(Section):
     """Lognormal peak cohesion (undrained strength with the law "tresca"), and the residual one; in Pa.
 
-    Either is its mean everywhere where its coefficient of variation is 0 or left out.
+    Either is its mean everywhere where its coefficient of variation is 0 or left out. Means grow by their gradients, in
+    Pa/m, below the ground surface, or the top of a layer.
     """
 
     mean: Annotated[Pressure, NOT_NEGATIVE]
     cov: Cov
     residual: Annotated[Pressure, NOT_NEGATIVE]
     residual_cov: OptionalCov = None
+    gradient: PressureGrowth = None
+    residual_gradient: PressureGrowth = None
 
 
 class FrictionAngle(Section):
-    """Lognormal peak friction angle, and the residual one, each its mean everywhere without a variation; in rad."""
+    """Lognormal peak friction angle, and the residual one, each its mean everywhere without a variation; in rad.
+
+    Means grow by their gradients, in rad/m.
+    """
 
     mean: Annotated[Angle, must("be at least 0 deg and below 90 deg", lambda angle: 0.0 <= angle < radians(90.0))]
     cov: Cov
     residual: Annotated[Angle, NOT_NEGATIVE]
     residual_cov: OptionalCov = None
+    gradient: AngleGrowth = None
+    residual_gradient: AngleGrowth = None
 
 
 class Softening(Section):

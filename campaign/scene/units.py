@@ -32,7 +32,10 @@ ANGLE = Kind("an angle", "rad", "10 deg")
 TIME = Kind("a time", "s", "10 s")
 DENSITY = Kind("a density", "kg/m^3", "2000 kg/m^3")
 NUMBER = Kind("a number without unit", "", "0.1")
-KINDS = (LENGTH, AREA, PRESSURE, UNIT_WEIGHT, ANGLE, TIME, DENSITY, NUMBER)
+PRESSURE_GRADIENT = Kind("a pressure per length", "Pa/m", "2 kPa/m", least_unit=0.1)
+ANGLE_GRADIENT = Kind("an angle per length", "rad/m", "0.1 deg/m")
+KINDS = (LENGTH, AREA, PRESSURE, UNIT_WEIGHT, ANGLE, TIME, DENSITY, NUMBER, ANGLE_GRADIENT)
+"""Those by which a quantity in its wrong place is named; a pressure per length is a unit weight."""
 
 OTHERS = {
     "[mass] * [length] / [time] ** 2": "a force",
@@ -155,3 +158,5 @@ Pressure = Annotated[float, BeforeValidator(partial(si_value, kind=PRESSURE))]
 UnitWeight = Annotated[float, BeforeValidator(partial(si_value, kind=UNIT_WEIGHT))]
 Angle = Annotated[float, BeforeValidator(partial(si_value, kind=ANGLE))]
 Time = Annotated[float, BeforeValidator(partial(si_value, kind=TIME))]
+PressureGradient = Annotated[float, BeforeValidator(partial(si_value, kind=PRESSURE_GRADIENT))]
+AngleGradient = Annotated[float, BeforeValidator(partial(si_value, kind=ANGLE_GRADIENT))]

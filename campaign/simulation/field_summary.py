@@ -96,9 +96,9 @@ class BoxMap(NamedTuple):
     def means(self, field: Strengths) -> Array:
         """Return the means of ln(property) over the boxes, (property, row, column); NaN where none is random.
 
-        The logarithm is the Gaussian field but for a factor and a constant, whatever the unit.
+        Without its trend: the logarithm is the Gaussian field but for a factor and a constant, whatever the unit.
         """
-        return self.averages(field.values, np.log)
+        return self.averages(field.random_values(), np.log)
 
     def averages(self, values: Array, of: Callable[[Array], Array] = np.asarray) -> Array:
         """Return the means over the boxes, (n, row, column), of a function of values on the reference grid (n, ny, nx).

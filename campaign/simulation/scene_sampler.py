@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from campaign.fields.cholesky import CholeskySampler
 from campaign.fields.correlation import Array, Correlation, autocorrelation_distance
 from campaign.fields.cross_correlation import gaussian_matrix, lower_factor
-from campaign.fields.properties import distributions
+from campaign.fields.properties import PROPERTIES, distributions
 from campaign.fields.reference_grid import Mask, ReferenceGrid
 from campaign.fields.samplers import CirculantSampler, KroneckerSampler, Sampler
 from campaign.fields.strengths import LayerSoil, StrengthSampler
-from campaign.scene.layers import interfaces_of, layer_at, layer_scenes, random_properties
+from campaign.scene.layers import interfaces_of, layer_at, layer_scenes, tops_of
 from campaign.scene.scene import Scene
 from campaign.scene.sections import RandomField
 from solver.surface import Surface
@@ -50,15 +50,14 @@ def strength_sampler(
     method = AUTOMATIC if field.sampler == "auto" else field.sampler
     cells = grid.cells_with(soil if method == "cholesky" else None)
     gaussian = gaussian_sampler(method, correlation, grid, cells, directory)
+    tops = tops_of(scene)
     if not scene.layer:
-        return StrengthSampler(grid, cells, gaussian, (soil_of_layer(scene),))
-    interfaces = interfaces_of(scene)
-    soils = []
-    for number, layer in enumerate(layer_scenes(scene)):
+        return StrengthSampler(grid, cells, gaussian, (soil_of_layer(scene, tops[0]),))
+    interfaces, soils = interfaces_of(scene), []
+    for number, (layer, top) in enumerate(zip(layer_scenes(scene), tops, strict=True)):
         has_own = number > 0 and scene.layer[number - 1].field == "own"
-        own = soil_of_layer(layer, number if has_own else 0)
-        means = {row.name: row.mean(layer) for row in random_properties(scene) if row.name not in own.marginals}
-        soils.append(own._replace(means=means, cells=grid.cells_with(partial(_is_in, interfaces, number))))
+        own = soil_of_layer(layer, top, number if has_own else 0)
+        soils.append(own._replace(cells=grid.cells_with(partial(_is_in, interfaces, number))))
     return StrengthSampler(grid, cells, gaussian, tuple(soils), layer_at(interfaces, *np.meshgrid(grid.x, grid.y)))
 
 
@@ -69,12 +68,14 @@ def reference_grid(scene: Scene, width: float, height: float) -> ReferenceGrid:
     return ReferenceGrid.covering(width, height, scene.field.resolution or finest / CELLS_PER_DISTANCE)
 
 
-def soil_of_layer(scene: Scene, field: int = 0) -> LayerSoil:
-    """Return what the [soil] of a scene makes of the common Gaussian fields, or of those of a layer alone."""
+def soil_of_layer(scene: Scene, top: Surface, field: int = 0) -> LayerSoil:
+    """Return what the [soil] of a scene below its top makes of the common Gaussian fields, or of those of a layer."""
     laws = distributions(scene)
+    means = {row.name: row.reference(scene) for row in PROPERTIES if row.name not in laws}
+    trends = {row.name: trend for row in PROPERTIES if (trend := row.trend(scene, top)) is not None}
     pairs = {pair: rho for pair, rho in scene.field.cross_correlations().items() if laws.keys() >= {*pair}}
     matrix = gaussian_matrix(laws, pairs, scene.field.cross_correlation_of)
-    return LayerSoil(laws, lower_factor(matrix), field=field)
+    return LayerSoil(laws, lower_factor(matrix), field=field, means=means, trends=trends)
 
 
 def _is_in(interfaces: tuple[Surface, ...], number: int, x: Array, y: Array) -> NDArray[np.bool_]:

@@ -5,11 +5,14 @@ from math import log, radians, sqrt
 import numpy as np
 
 from campaign.scene.scene import Scene
-from campaign.scene.sections import Cohesion, FrictionAngle, RandomField, Soil
+from campaign.scene.sections import Cohesion, FrictionAngle, Geometry, RandomField, Soil
 from campaign.simulation.scene_sampler import strength_sampler
 
 COHESION = Cohesion.model_construct(mean=20e3, cov=0.3, residual=10e3)
 FRICTION = FrictionAngle.model_construct(mean=radians(20.0), cov=0.2, residual=radians(12.0))
+BOX = Geometry.model_construct(surface=((0.0, 3.0), (5.9, 3.0), (6.0, 2.9)))
+"""Of the field, with a kink that makes it a slope."""
+
 REALIZATIONS = 2000
 DEVIATIONS = 4.0
 """Tolerance in standard errors; a Gaussian estimate is further out with a probability of 6.3e-5."""
@@ -26,9 +29,8 @@ def box_scene(cohesion=COHESION, friction_angle=FRICTION, **changes):
         "resolution": 0.5,
     }
     field = RandomField.model_construct(**values | changes)
-    return Scene.model_construct(
-        soil=Soil.model_construct(cohesion=cohesion, friction_angle=friction_angle), field=field
-    )
+    soil = Soil.model_construct(cohesion=cohesion, friction_angle=friction_angle)
+    return Scene.model_construct(soil=soil, field=field, geometry=BOX)
 
 
 def small_sampler(*strengths, **changes):

@@ -1,6 +1,8 @@
 """Strength falls and never grows, and stays what a soil can have."""
 
+from collections.abc import Callable
 from math import exp, expm1, inf, log, log1p, sqrt
+from typing import Any
 
 from campaign.fields.properties import PROPERTIES, SoilProperty
 from campaign.scene.rules.measures import degrees
@@ -53,14 +55,14 @@ def _friction_angle_that_is_not_read(_mean: float, law: str) -> str | None:
     return None
 
 
-@RULES.on("soil.cohesion.mean", "soil.friction_angle.mean")
-def _some_strength(cohesion: float, friction_angle: float) -> str | None:
-    return NO_STRENGTH if cohesion == 0.0 and friction_angle == 0.0 else None
+@RULES.on("soil.cohesion.mean", "soil.friction_angle.mean", "soil.cohesion.gradient", "soil.friction_angle.gradient")
+def _some_strength(*means_and_gradients: float | None) -> str | None:
+    return None if any(means_and_gradients) else NO_STRENGTH
 
 
-@RULES.on("soil.cohesion.mean", "soil.law")
-def _some_undrained_strength(cohesion: float, law: str) -> str | None:
-    return NO_STRENGTH if cohesion == 0.0 and law == FRICTIONLESS else None
+@RULES.on("soil.cohesion.mean", "soil.law", "soil.cohesion.gradient")
+def _some_undrained_strength(cohesion: float, law: str, gradient: float | None) -> str | None:
+    return NO_STRENGTH if law == FRICTIONLESS and not cohesion and not gradient else None
 
 
 @RULES.on("soil.dilation_angle", "soil.law")
@@ -80,8 +82,8 @@ def _add_rules_of(row: SoilProperty) -> None:
             )
         return None
 
-    def within_limit(cov: float | None, mean: float) -> str | None:
-        if not cov:
+    def within_limit(cov: float | None, mean: float, gradient: float | None) -> str | None:
+        if not cov or (gradient and not mean):
             return None
         if mean <= 0.0:
             return (
@@ -97,7 +99,52 @@ def _add_rules_of(row: SoilProperty) -> None:
 
     if row.floor_key:
         RULES.on(row.floor_key, row.mean_key)(not_above_peak)
-    RULES.on(row.cov_key, row.mean_key)(within_limit)
+    RULES.on(row.cov_key, row.mean_key, row.gradient_key)(within_limit)
+
+    def at_depth(gradient: float | None, mean: float, cov: float | None, depth: float) -> str | None:
+        if not gradient:
+            return None
+        deepest = mean + gradient * depth
+        if deepest >= row.limit or (cov and cov >= largest_allowed_cov(deepest, row.limit)):
+            return (
+                f"{depth:g} m below the surface a {row.long_name} of {row.unit.show(deepest)} would "
+                f"{'somewhere ' if deepest < row.limit else ''}reach {row.unit.show(row.limit)}; use a smaller one"
+            )
+        return None
+
+    def not_above_peak_at_depth(
+        gradient: float | None, floor: float, peak_gradient: float | None, peak: float, depth: float
+    ) -> str | None:
+        here, there = floor + (gradient or 0.0) * depth, peak + (peak_gradient or 0.0) * depth
+        if gradient and here > there:
+            return (
+                f"{depth:g} m below the surface it would be {_of_floor(row).unit.show(here)}, above the mean "
+                f"{row.long_name}, {row.unit.show(there)}; use at most the gradient of that"
+            )
+        return None
+
+    _on_deepest(at_depth, row.gradient_key, row.mean_key, row.cov_key)
+    if row.floor_key:
+        _on_deepest(not_above_peak_at_depth, _of_floor(row).gradient_key, row.floor_key, row.gradient_key, row.mean_key)
+
+
+def _of_floor(row: SoilProperty) -> SoilProperty:
+    return next(each for each in PROPERTIES if each.mean_key == row.floor_key)
+
+
+def _on_deepest(check: Callable[..., str | None], *keys: str) -> None:
+    """Add a rule on some keys of the soil and the largest depth in m of the ground, however that is given."""
+
+    def of_slope(*values: float) -> str | None:
+        *soil, height, foundation = values
+        return check(*soil, height + foundation)
+
+    def of_surface(*values: Any) -> str | None:
+        *soil, surface = values
+        return None if surface is None else check(*soil, max(y for _, y in surface))
+
+    RULES.on(*keys, "geometry.slope.height", "geometry.slope.foundation")(of_slope)
+    RULES.on(*keys, "geometry.surface")(of_surface)
 
 
 for _row in PROPERTIES:

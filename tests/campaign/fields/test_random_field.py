@@ -11,7 +11,6 @@ from soil_fields import COHESION, FRICTION, assert_mean, box_scene, draws, small
 from campaign.errors import SamplerError
 from campaign.fields.marginals import Lognormal, gaussian_cross_correlation
 from campaign.fields.reference_grid import ReferenceGrid
-from campaign.scene.sections import FrictionAngle
 from campaign.seeds import BASELINE
 from campaign.simulation.scene_sampler import strength_sampler
 
@@ -168,7 +167,7 @@ def test_cholesky_covers_the_ground_and_nothing_else(side, up, tmp_path):
 
 
 def test_friction_angle_beyond_the_vertical_is_refused():
-    sampler = small_sampler(COHESION, FrictionAngle.model_construct(mean=radians(70.0), cov=0.5))
+    sampler = small_sampler(COHESION, FRICTION.model_copy(update={"mean": radians(70.0), "cov": 0.5}))
     with pytest.raises(SamplerError, match="Realization 0 has a peak friction angle of"):
         [sampler.draw(7, k) for k in range(20)]
     assert sampler.draw(7, BASELINE)["friction_angle"].max() < pi / 2

@@ -13,6 +13,7 @@ from campaign.scene import Scene, load_scene, scene_of
 from campaign.scene.constraints import tolerance
 from campaign.scene.document import read_document
 from campaign.scene.first_look import FirstLook, look_at
+from campaign.scene.layer_table import trend_words
 from campaign.scene.limit_equilibrium import Strata, critical_circle, factor_on
 from campaign.scene.outlook import outlook
 from campaign.simulation.field_size import field_size
@@ -196,3 +197,10 @@ def test_who_asks_for_an_accuracy_is_told_what_the_first_runs_cost():
     text = " ".join(first_look_text(scene, look_at(scene), field_size(scene)).split())
     assert "First 12 realizations with cells of 0.5 m and 32 of each cheaper model" in text
     assert "core-hours for all" not in text
+
+
+def test_strength_that_grows_with_depth_makes_a_slope_safer_and_is_told():
+    plain, grown = (load_scene("ma2023", more) for more in ([], ["soil.cohesion.gradient=2 kPa/m"]))
+    assert look_at(grown).peak.factor > 1.2 * look_at(plain).peak.factor
+    assert trend_words(grown) == "The mean peak cohesion grows by 2 kPa per metre of depth, from 20 kPa."
+    assert trend_words(plain) is None

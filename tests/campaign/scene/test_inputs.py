@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from campaign.errors import RefusalError
+from campaign.fields.properties import PROPERTIES
 from campaign.scene import load_scene
 from campaign.scene.cost import core_seconds, with_more_of_an_input
 from campaign.scene.inputs import BY_KEY, INPUTS, inputs_of, raised, with_more
@@ -18,8 +19,8 @@ def keys(scene):
 
 def test_a_scene_has_the_inputs_that_count_in_it():
     others = ["soil.softening.slip_to_residual", "soil.softening.reference_cell"]
-    of_wet_ground = ["soil.saturated_unit_weight", "water.r_u"]
-    assert [row.key for row in INPUTS if row.key not in keys(MA2023)] == [*others, *of_wet_ground]
+    of_other_ground = [*(row.gradient_key for row in PROPERTIES), "soil.saturated_unit_weight", "water.r_u"]
+    assert [row.key for row in INPUTS if row.key not in keys(MA2023)] == [*others, *of_other_ground]
     assert "water.r_u" in keys(load_scene("ma2023", ["water.r_u=0.2"]))
     by_slip = keys(load_scene("ma2023", ["soil.softening.slip_to_residual=2 m"]))
     assert by_slip[0] == "soil.softening.slip_to_residual"

@@ -154,3 +154,38 @@ def test_drawdown_is_worse_than_the_lake_and_than_dry_ground():
         for water in ({"table": lake, "level": 15.0}, {"table": surface}, {})
     )
     assert after < dry < full
+
+
+def grown(height, angle):
+    """Return a slope in clay whose strength grows by 2 kPa/m from nothing at the level of the crest, and its F."""
+    steep = Surface(np.array([0.0, 2.0, 2.0, 4.0]) * height, np.array([1.01, 1.01, 0.01, 0.01]) * height, 2.0 * height)
+    surface = steep if angle == 90.0 else slope_surface(height, np.radians(angle), *[2.0 * height] * 2, 0.01 * height)
+    crest = Surface(np.array([0.0, surface.width]), np.full(2, 1.01 * height))
+    strata = Strata((0.0,), (0.0,), (16e3,), cohesion_gradient=(2e3,), friction_gradient=(0.0,), tops=(crest,))
+    return surface, strata, critical_circle(surface, strata)
+
+
+@pytest.mark.parametrize("angle", [30.0, 45.0, 60.0, 90.0])
+def test_strength_that_grows_from_nothing_makes_the_factor_independent_of_the_height(angle):
+    """F = N k / gamma (Gibson and Morgenstern 1962). A plane gives N = 2 cot(angle / 2), which a circle undercuts.
+
+    For a vertical cut the plane is critical: N = 2, to which circles come within 0.3 %.
+    """
+    low, high = (grown(height, angle)[2].factor for height in (5.0, 20.0))
+    number, plane = low * 16e3 / 2e3, 2.0 / np.tan(np.radians(angle) / 2.0)
+    assert high == pytest.approx(low, rel=1e-9)
+    assert number < 1.003 * plane
+    assert number == pytest.approx(plane, rel=0.003) or angle < 90.0
+
+
+@pytest.mark.parametrize("angle", [30.0, 45.0, 60.0])
+def test_undrained_strength_along_a_circle_is_integrated_exactly(angle):
+    """F = R int c ds / int W (x_c - x) dx, by 100,000 points on the same circle."""
+    surface, _strata, circle = grown(10.0, angle)
+    x = np.linspace(circle.entry, circle.exit, 100_001)
+    x = 0.5 * (x[1:] + x[:-1])
+    base, width = circle.elevation(x), (circle.exit - circle.entry) / 100_000
+    strength = 2e3 * (10.1 - base) * circle.radius / np.sqrt(circle.radius**2 - (x - circle.x) ** 2)
+    weight = 16e3 * (surface.height_at(x) - base)
+    factor = circle.radius * np.sum(strength * width) / np.sum(weight * (circle.x - x) * width)
+    assert circle.factor == pytest.approx(factor, rel=0.002)

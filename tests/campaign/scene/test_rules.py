@@ -106,3 +106,31 @@ def test_what_is_certain_or_absent_does_not_vary() -> None:
     assert "a lognormal peak cohesion needs a mean above zero" in complaint(*NO_COHESION)
     nothing = complaint(*NO_COHESION, *NO_FRICTION, "soil.cohesion.cov=0", "soil.friction_angle.cov=0")
     assert "soil without cohesion and friction is a liquid" in nothing
+
+
+@pytest.mark.parametrize(
+    ("overrides", "expected"),
+    [
+        (
+            ["soil.cohesion.gradient=2 kPa"],
+            "that is a pressure, and a pressure per length is needed",
+        ),
+        (["soil.cohesion.gradient=2"], 'a pressure per length needs its unit and quotes, for instance "2 kPa/m"'),
+        (["soil.cohesion.gradient=2 mPa/m"], "m is milli, M is mega"),
+        (["soil.cohesion.gradient=-1 kPa/m"], "it must not be negative; ground that is weaker below is a layer"),
+        (
+            ["soil.friction_angle.gradient=5 deg/m"],
+            "19 m below the surface a peak friction angle of 105 deg would reach",
+        ),
+        (["soil.friction_angle.gradient=3 deg/m"], "of 67 deg would somewhere reach 90 deg; use a smaller one"),
+        (["soil.cohesion.residual_gradient=2 kPa/m"], "it would be 48 kPa, above the mean peak cohesion, 20 kPa; use"),
+    ],
+)
+def test_a_gradient_that_cannot_be_is_refused(overrides: list[str], expected: str) -> None:
+    assert expected in complaint(*overrides)
+
+
+def test_a_gradient_may_start_from_nothing_and_none_leaves_a_scene_as_it_was() -> None:
+    load_scene("ma2023", [*NO_COHESION, "soil.cohesion.gradient=2 kPa/m"])
+    none = ["soil.cohesion.gradient=0 kPa/m", "soil.friction_angle.residual_gradient=0 deg/m"]
+    assert load_scene("ma2023", none).digest() == load_scene("ma2023").digest()
