@@ -71,7 +71,7 @@ def test_a_syntax_error_names_the_line_and_the_missing_quotes(tmp_path: Path) ->
         # ranges
         ("geometry.slope.angle=90 deg", "between 0 deg and 90 deg"),
         ("field.vertical=0 m", "it must be greater than zero"),
-        ("soil.cohesion.cov=0", "it must be greater than zero"),
+        ("soil.cohesion.cov=-0.1", "it must not be negative"),
         ("soil.poisson_ratio=0.5", "at least 0 and below 0.5"),
         ("soil.dilation_angle=-1 deg", "it must not be negative"),
         ("soil.softening.rate=0", "it must be greater than zero"),
