@@ -1,36 +1,58 @@
-"""From a ground surface to particles."""
+"""From a ground surface to particles.
+
+The ground reaches to the wall of the grid, which is the next node beyond the end of the surface. Its particles are the
+squares of a lattice. Of those that the surface cuts, either the whole square is a particle if its centre is below, so
+that an inclined surface is a staircase and jumps by a particle as it moves; or the particle is the part below the
+surface, with its area and its centroid, so that mass and centre of the ground are those that are drawn (``squares``).
+"""
 
 import numpy as np
 
 from solver.grid import particle_spacing, whole_cells
 from solver.model import Model
 from solver.particles import Particles, allocate_particles, assign_material
+from solver.squares import filled_squares
 from solver.surface import Surface
 
 
 def fill_ground(surface: Surface, cell_size: float, particles_per_cell: int, density: float) -> Particles:
-    """Return particles on a regular lattice whose centres lie strictly below the surface, sorted by cell.
+    """Return whole squares whose centres lie strictly below the surface, sorted by cell.
 
     ``cell_size`` is in m and ``density`` in kg/m3; ``particles_per_cell`` is a square number.
-    A particle stands for the lattice square around it, so an inclined surface is a staircase of half a spacing. The
-    ground reaches to the wall of the grid, which is the next node beyond the end of the surface.
     """
     spacing = particle_spacing(cell_size, particles_per_cell)
-    per_side = round(cell_size / spacing)
-    columns = whole_cells(surface.width, cell_size) * per_side
-    rows = int(np.ceil(surface.top / spacing))
+    columns, rows = _columns(surface, cell_size, spacing), int(np.ceil(surface.top / spacing))
     x = (np.arange(columns) + 0.5) * spacing
     y = (np.arange(rows) + 0.5) * spacing
     x, y = (lattice.ravel() for lattice in np.meshgrid(x, y))
     below = y < surface.height_at(x) - 1e-9
     x, y = x[below], y[below]
-    order = np.lexsort((x // cell_size, y // cell_size))
+    order = _by_cell(x, y, cell_size)
     return allocate_particles(x[order], y[order], spacing**2, density)
 
 
+def fill_to_surface(surface: Surface, cell_size: float, particles_per_cell: int, density: float) -> Particles:
+    """Return squares cut by the surface, sorted by cell; arguments are those of ``fill_ground``."""
+    spacing = particle_spacing(cell_size, particles_per_cell)
+    squares = filled_squares(surface, spacing, _columns(surface, cell_size, spacing))
+    order = _by_cell(squares.x, squares.y, cell_size)
+    particles = allocate_particles(squares.x[order], squares.y[order], 1.0, density)
+    return particles._replace(volume=squares.area[order], mass=density * squares.area[order])
+
+
+def _columns(surface: Surface, cell_size: float, spacing: float) -> int:
+    return whole_cells(surface.width, cell_size) * round(cell_size / spacing)
+
+
+def _by_cell(x: np.ndarray, y: np.ndarray, cell_size: float) -> np.ndarray:
+    order: np.ndarray = np.lexsort((x, y, x // cell_size, y // cell_size))
+    return order
+
+
 def ground_of(model: Model) -> Particles:
-    """Return the particles of a model on their lattice, each of the material of its layer, moist or saturated."""
-    ground = fill_ground(model.surface, model.cell_size, model.particles_per_cell, model.materials[0].density)
+    """Return the particles of a model before anything moves, each of the material of its layer, moist or saturated."""
+    fill = fill_to_surface if model.filling == "cut" else fill_ground
+    ground = fill(model.surface, model.cell_size, model.particles_per_cell, model.materials[0].density)
     for number, top in enumerate(model.interfaces, start=1):
         assign_material(ground, ground.y < top.height_at(ground.x), number, model.materials[number].density)
     is_wet = ground.y < model.water.height_at(ground.x)

@@ -4,6 +4,7 @@ from typing import Literal, NamedTuple
 
 Basis = Literal["gimp", "linear", "bspline"]
 StressUpdate = Literal["musl", "usl", "usf"]
+Filling = Literal["lattice", "cut"]  # of the ground with particles, see ``filling``
 Locking = Literal["none", "cell-average"]  # the cure, not the disease: "none" locks
 
 

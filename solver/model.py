@@ -7,7 +7,7 @@ from solver.grid import Grid, allocate_grid, particle_spacing
 from solver.internal_length import smoothing_weights
 from solver.laws.registry import Law
 from solver.materials import Material
-from solver.method import Method
+from solver.method import Filling, Method
 from solver.scheme import AnyScheme, scheme_of
 from solver.slide import PAPER, SlideCriteria
 from solver.surface import Surface
@@ -28,6 +28,7 @@ class Model(NamedTuple):
     internal_length: float = 0.0  # m over which plastic strain is averaged; 0: softening is local
     ramp_time: float = 0.0  # s over which gravity grows with plasticity active; 0 releases a loaded slope at once
     criteria: SlideCriteria = PAPER
+    filling: Filling = "lattice"
     interfaces: tuple[Surface, ...] = ()  # the k-th is the top of the material k + 1
     water: Water = NO_WATER
 

@@ -9,7 +9,7 @@ from campaign.scene.ground_surface import surface_of
 from campaign.scene.layer_soil import soils_of, written_out
 from campaign.scene.sections import SceneFile, Soil
 
-ADDED_LATER = {"soil.law": "mohr-coulomb", "water.unit_weight": 9810.0}
+ADDED_LATER = {"soil.law": "mohr-coulomb", "water.unit_weight": 9810.0, "numerics.filling": "lattice"}
 """Values of keys that older scenes do not have; with these a scene is what it was before."""
 
 NOT_IDENTITY = {"slide": {"front"}}

@@ -38,7 +38,7 @@ from campaign.scene.constraints import (
     one_of,
 )
 from campaign.scene.units import Angle, Pressure, UnitWeight
-from solver.method import Basis, Locking, StressUpdate
+from solver.method import Basis, Filling, Locking, StressUpdate
 
 
 class Section(BaseModel):
@@ -216,6 +216,7 @@ class Numerics(Section):
 
     cell: PositiveLength
     particles_per_cell: Annotated[int, must("be 1, 4, 9 or 16", lambda number: number in (1, 4, 9, 16))] = 4
+    filling: Filling = "cut"
     basis: Basis = "gimp"
     stress_update: StressUpdate = "musl"
     courant: Annotated[float, must("be above 0 and at most 1.5, for instance 0.6", lambda c: 0.0 < c <= 1.5)] = 0.6

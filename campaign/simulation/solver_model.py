@@ -37,6 +37,7 @@ def model_of(scene: Scene) -> Model:
         ramp_time=numerics.ramp_time if numerics.gravity == "ramp" else 0.0,
         criteria=SlideCriteria(slide.displaced, slide.failed, scene.front_area, slide.front),
         interfaces=interfaces_of(scene),
+        filling=numerics.filling,
         water=water_of(scene),
     )
 

@@ -1,10 +1,12 @@
 """From a surface to particles."""
 
+import itertools
+
 import numpy as np
 import pytest
 
 from solver.faces import face_stack, foot_of_slope
-from solver.filling import fill_ground
+from solver.filling import fill_ground, fill_to_surface
 from solver.surface import Surface, slope_surface
 
 
@@ -164,3 +166,57 @@ def test_particles_come_sorted_by_cell():
     ground = fill_ground(PAPER, 0.5, 4, 2000.0)
     cell = np.floor(ground.y / 0.5) * 1000 + np.floor(ground.x / 0.5)
     assert np.all(np.diff(cell) >= 0)
+
+
+def drawn_moments(points):
+    """Return area, and area times the centroid, of the ground under a polyline, by the formulas of a trapezium."""
+    area = first_x = first_y = 0.0
+    for (x_a, y_a), (x_b, y_b) in itertools.pairwise(points):
+        width = x_b - x_a
+        area += width * (y_a + y_b) / 2.0
+        first_x += width * (x_a * (2.0 * y_a + y_b) + x_b * (y_a + 2.0 * y_b)) / 6.0
+        first_y += width * (y_a**2 + y_a * y_b + y_b**2) / 6.0
+    return area, first_x, first_y
+
+
+ROUGH = [(0, 4.13), (2.2, 4.9), (5.7, 4.9), (5.7, 3.31), (8.05, 2.0), (9.0, 1.07), (9.0, 0.4), (11.3, 0.72), (14, 0.61)]
+CLIFF = [(0, 9), (10, 9), (10, 4), (30, 4)]
+WEDGE = [(0, 6.2), (3, 6.2), (9.2, 0.001), (14, 0.001)]
+
+
+@pytest.mark.parametrize("particles_per_cell", [1, 4, 9])
+@pytest.mark.parametrize(
+    "points", [ROUGH, [(0, 9), (10, 9), (10, 4), (30, 4)], [(0, 6.2), (3, 6.2), (9.2, 0.001), (14, 0.001)]]
+)
+def test_cut_particles_have_the_mass_and_the_centre_that_are_drawn(points, particles_per_cell):
+    ground = fill_to_surface(surface(*points), 0.5, particles_per_cell, 2000.0)
+    found = ground.volume.sum(), np.sum(ground.volume * ground.x), np.sum(ground.volume * ground.y)
+    assert found == pytest.approx(drawn_moments(points), rel=1e-12)
+    assert ground.mass.sum() == pytest.approx(2000.0 * found[0], rel=1e-12)
+
+
+def test_cut_particles_are_none_too_light_and_lie_below_the_surface():
+    line = surface(*ROUGH)
+    ground = fill_to_surface(line, 0.5, 4, 2000.0)
+    assert ground.volume.min() >= 0.25 * 0.25**2
+    assert ground.volume.max() < 2.0 * 0.25**2
+    assert np.all(ground.y < line.height_at(ground.x))
+
+
+def test_level_ground_on_the_lattice_is_the_same_either_way():
+    line = surface((0, 2), (3, 2))
+    whole, cut = (fill(line, 0.5, 4, 2000.0) for fill in (fill_ground, fill_to_surface))
+    for one, other in zip(whole, cut, strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-12)
+
+
+def test_mass_grows_smoothly_with_a_slope():
+    """By centimetres of height: the lattice jumps by a row of particles, what is cut grows in proportion."""
+    heights = np.arange(6.0, 6.5, 0.02)
+    slopes = [surface((0, 2 + h), (5, 2 + h), (5 + h, 2), (20, 2)) for h in heights]
+    whole, cut = (
+        np.array([fill(line, 1.0, 4, 1.0).mass.sum() for line in slopes]) for fill in (fill_ground, fill_to_surface)
+    )
+    drawn = np.array([drawn_moments(list(zip(line.x, line.y, strict=True)))[0] for line in slopes])
+    np.testing.assert_allclose(cut, drawn, rtol=1e-12)
+    assert np.abs(whole - drawn).max() > 1.0
