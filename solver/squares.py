@@ -1,5 +1,6 @@
 """Squares of a lattice that a surface cuts: the area and the centre of what lies below it, exact for a polyline."""
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -106,7 +107,7 @@ def _moments(pieces: _Pieces, bottom: np.ndarray, side: float) -> tuple[np.ndarr
     crossings = [np.where(rise == 0.0, 0.0, (level - pieces.left_y) / safe) for level in (bottom, bottom + side)]
     ends = np.sort(np.clip([np.zeros_like(width), *crossings, np.ones_like(width)], 0.0, 1.0), axis=0)
     area, first_x, first_y = (np.zeros_like(width) for _ in range(3))
-    for a, b in zip(ends, ends[1:], strict=False):
+    for a, b in pairwise(ends):
         x_a, x_b = pieces.left_x + a * width, pieces.left_x + b * width
         t_a, t_b = (np.clip(pieces.left_y + share * rise - bottom, 0.0, side) for share in (a, b))
         part = 0.5 * (x_b - x_a) * (t_a + t_b)

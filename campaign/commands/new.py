@@ -35,6 +35,7 @@ OF_ANY_SLOPE = {
     r"# The paper gives no other length(?:.*\n#)*.*": "# The flats above and below it, and the ground under its toe.",
     r'(crest = "20 m" +)# ours: .*': r"\1# ours: as far behind it as slides may take ground, or farther",
     r'(foundation = "4 m" +)# ours: .*': r"\1# ours: as deep as slip surfaces may go, or down to rock",
+    r"filling = .*": 'filling = "cut"                # particles at the surface have the area that they have below it',
     r"# The one free parameter(?:.*\n#)*.*": """\
 # No input moves the run-out more, and none is measured less: replace it by slip_to_residual = "0.3 m", the slip after
 # which a ring shear test has lost 95 % of the drop from peak to residual strength (0.1 to 0.5 m in clay). This rate is

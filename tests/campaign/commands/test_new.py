@@ -12,11 +12,12 @@ def keep_threads(monkeypatch):
 
 
 @pytest.mark.parametrize("name", ["my-slope.toml", 'ein "Hang" {x}.toml'])
-def test_a_new_scene_is_the_built_in_one_under_its_own_name_with_a_front_that_suits_any_height(tmp_path, name):
+def test_a_new_scene_is_the_built_in_one_but_for_what_suits_any_slope(tmp_path, name):
     file = tmp_path / name
     assert cli.main(["new", str(file)]) == 0
     scene = load_scene(file)
-    assert scene.identity() == load_scene("ma2023").identity() | {"slide.front_area": pytest.approx(2.25)}
+    other = {"slide.front_area": pytest.approx(2.25), "numerics.filling": "cut"}
+    assert scene.identity() == load_scene("ma2023").identity() | other
     assert scene.title == file.stem
     assert f"campaign validate {name}" in scene.text
     assert "# front_area = " in scene.text
