@@ -54,7 +54,7 @@ def test_a_warning_shows_the_value_in_the_users_unit(capsys):
 RECEPTORS = 'receptor=[{name="road", x="40 m"}, {name="house", x="60 m"}, {name="barn", x="55 m"}]'
 
 
-SMALL_FRONT = 'Warning: slide.front_area (ma2023.toml, line 79) is "0.25 m^2", but the front then leaves'
+SMALL_FRONT = 'Warning: slide.front_area (ma2023.toml, line 80) is "0.25 m^2", but the front then leaves'
 """What is said of ma2023 in cells of 2 m, whatever else is changed."""
 
 
