@@ -4,17 +4,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.record import FAILED, UNHINDERED, Status
+from campaign.record import FAILED, Status
 from campaign.report import aimed, estimates
 from campaign.report.cut_short import WALLS, causes, reach_the_wall_behind
 from campaign.results.accuracy import reached_of
 from campaign.results.results import Results
-from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import failure_bounds
 from campaign.statistics.total import has_mesh_error
 from campaign.statistics.wording import at_least, chance, chances, estimated_chance, least, metres, so_far
-from campaign.terminal import counted
 
 NOT_ESTIMATED = "not estimated"
 
@@ -153,7 +151,7 @@ def _discretisation(results: Results) -> list[Row]:
     change, came = found.interval, so_far(results.outcomes)
     name = f"mean run-out of a slide{came}, changed by cells of {found.cell / 2:g} m"
     if change.n == 0:
-        return [Row("Discretisation", name, NOT_ESTIMATED, _why_no_pair(results, found), "0")]
+        return [Row("Discretisation", name, NOT_ESTIMATED, _why_no_pair(results), "0")]
     return [Row("Discretisation", name, *_signed(change), str(change.n))]
 
 
@@ -163,15 +161,13 @@ def _signed(change: Interval) -> tuple[str, str]:
     return f"{change.estimate:+.2f} m", bounds
 
 
-def _why_no_pair(results: Results, found: Discretisation) -> str:
+def _why_no_pair(results: Results) -> str:
     """Say why no realization gave a run-out with both cells."""
-    repeated = slice(found.differences.size)
-    slid = int(np.count_nonzero(results.has_slid[repeated]))
-    if not slid:
-        return f"none of the first {counted(found.differences.size, 'realization')} slid"
-    if not results.has_status(UNHINDERED)[repeated].any():
-        walls = f"the wall ahead stopped {'the one' if slid == 1 else f'all {slid}'} that slid"
-        return f"of the first {counted(found.differences.size, 'realization')} {walls}"
+    slides = results.outcomes.slides
+    if not slides:
+        return "nothing slid"
+    if not results.outcomes.unhindered:
+        return f"the wall ahead stopped {'the one slide' if slides == 1 else f'all {slides} slides'}"
     return "with half the cell, none slid to its end without a failure or the wall ahead in its way"
 
 

@@ -3,6 +3,7 @@
 Which runs that takes depends on the result alone, neither on ranks nor on interruptions.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from campaign.record import UNHINDERED
@@ -11,7 +12,7 @@ from campaign.running.side_run import Means, SideRun, make
 from campaign.scene import Scene
 from campaign.seeds import BASELINE
 from campaign.statistics import discretisation
-from campaign.statistics.changed_inputs import InputEffects
+from campaign.statistics.changed_inputs import InputEffects, first_slides
 from campaign.statistics.discretisation import Discretisation
 from campaign.statistics.release import OTHER, ReleaseComparison, with_other_release
 from campaign.statistics.tally import Tally
@@ -43,9 +44,10 @@ def beyond_sampling(scene: Scene, tally: Tally, means: Means, repeated: int | No
     if tally.too_many_failed:
         return BeyondSampling("")
     release, found, lacking = None, None, ""
-    if pairs := repeated or min(scene.campaign.discretisation_pairs, tally.prefix):
+    if repeated or scene.campaign.discretisation_pairs:
         release, lacking = _with_other_release(scene, means)
-        found, stopped = _with_half_cell(scene, tally, pairs, means.after(lacking))
+        slides = first_slides(tally, scene.campaign.discretisation_pairs)
+        found, stopped = _with_half_cell(scene, tally, range(repeated) if repeated else slides, means.after(lacking))
         lacking = lacking or stopped
     inputs, stopped = with_changed_inputs(scene, tally, means.after(lacking))
     return BeyondSampling(lacking or stopped, found, release, inputs)
@@ -66,30 +68,28 @@ def _with_other_release(scene: Scene, means: Means) -> tuple[ReleaseComparison |
     return ReleaseComparison(other, made.tally.summaries[BASELINE]), made.stopped
 
 
-def _with_half_cell(scene: Scene, tally: Tally, pairs: int, means: Means) -> tuple[Discretisation | None, str]:
-    """Repeat the first realizations with half the cell; what has no run-out of its own needs no repetition."""
-    finer = discretisation.with_half_cell(scene, pairs)
-    known = [summary for summary in tally.summaries.values() if summary.status not in UNHINDERED]
-    asked = {BASELINE, *range(pairs)} - {summary.realization for summary in known}
+def _with_half_cell(
+    scene: Scene, tally: Tally, pairs: Sequence[int], means: Means
+) -> tuple[Discretisation | None, str]:
+    """Repeat realizations with half the cell; what has no run-out of its own needs no repetition."""
+    finer = discretisation.with_half_cell(scene, max(pairs, default=0) + 1)
+    wanted = {BASELINE, *pairs}
+    asked = {k for k, summary in tally.summaries.items() if k in wanted and summary.status in UNHINDERED}
     run = SideRun(
         scene=lambda: finer,
         directory=means.home / HALF_CELL,
-        announcement=(
-            f"Discretisation error: {repeated_words(asked, pairs)} again, with cells of {finer.numerics.cell:g} m."
-        ),
+        announcement=f"Discretisation error: {repeated_words(asked)} again, with cells of {finer.numerics.cell:g} m.",
         loss="The discretisation error cannot be estimated with half the cell.",
-        known=known,
+        known=[summary for k, summary in tally.summaries.items() if k not in asked],
     )
     made = make(run, means)
     if made.tally is None:
         return None, made.stopped
-    return discretisation.estimate(scene, tally, made.tally), made.stopped
+    return discretisation.estimate(scene, tally, made.tally, asked), made.stopped
 
 
-def repeated_words(asked: set[int], pairs: int) -> str:
-    """Say which of the deterministic run and the first `pairs` realizations are repeated: what slid and met no wall."""
-    number = len(asked - {BASELINE})
-    those = counted(number, "realization")
-    if number < pairs:
-        those = f"{number:,} of the first {counted(pairs, 'realization')}, those that slid and met no wall,"
-    return f"{those} and the deterministic run" if BASELINE in asked else those
+def repeated_words(asked: set[int]) -> str:
+    """Say which of the slides and the deterministic run are repeated."""
+    slides = asked - {BASELINE}
+    told = [counted(len(slides), "slide")] if slides else []
+    return " and ".join([*told, *(["the deterministic run"] if BASELINE in asked else [])])

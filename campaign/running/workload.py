@@ -26,15 +26,15 @@ def seconds_beyond_sampling(scene: Scene, ranks: int, tally: Tally, rate: float)
     rate
         Realizations a second, of all ranks together.
     """
-    pairs = min(scene.campaign.discretisation_pairs, tally.maximum)
-    fine = sum(_is_repeated(tally, k) for k in (BASELINE, *range(pairs))) if pairs else 0
+    pairs = scene.campaign.discretisation_pairs
+    fine = len(first_slides(tally, pairs)) + _may_slide(tally, BASELINE) if pairs else 0
     release = min(1, pairs)
     changed = len(first_slides(tally, scene.campaign.sensitivity_pairs))
     rounds = HALF_CELL_COST * ceil(fine / ranks) + release + len(inputs_of(scene)) * ceil(changed / ranks)
     return rounds * ranks / rate
 
 
-def _is_repeated(tally: Tally, realization: int) -> bool:
+def _may_slide(tally: Tally, realization: int) -> bool:
     """Whether a realization has slid unhindered, or may still."""
     known = tally.summaries.get(realization)
     return known is None or known.status in UNHINDERED

@@ -42,7 +42,7 @@ def core_seconds(scene: Scene) -> float:
 
 
 def pairs(scene: Scene) -> int:
-    """Return how many realizations are repeated with half the cell."""
+    """Return how many slides are repeated with half the cell, at most."""
     return min(scene.campaign.discretisation_pairs, scene.campaign.realizations)
 
 

@@ -1,4 +1,4 @@
-"""The discretisation error of the mean run-out, from a few realizations repeated with half the cell.
+"""The discretisation error of the mean run-out, from a few slides repeated with half the cell.
 
 Realization k is the same ground on every mesh, so that the difference between its two run-outs is free of the scatter
 between realizations, and a few pairs tell what the whole campaign with half the cell would change. The estimate is that
@@ -6,6 +6,7 @@ plain difference. Richardson's extrapolation would multiply it by 2^p / (2^p - 1
 reveal the order p; at first order the error is twice the difference.
 """
 
+from collections.abc import Collection
 from typing import NamedTuple
 
 import numpy as np
@@ -31,8 +32,8 @@ class Discretisation(NamedTuple):
     cell : float
         The scene's own, in m.
     differences : array (pairs,)
-        Final run-out of realization 0, 1, ... with half the cell minus that with the cell, in m; NaN unless both slid,
-        without the wall ahead in the way.
+        Final run-out of realization 0, 1, ... with half the cell minus that with the cell, in m; NaN unless it was
+        repeated and both slid, without the wall ahead in the way.
     deterministic : float
         The same for the run with mean strengths.
     confidence : float
@@ -64,9 +65,10 @@ def with_half_cell(scene: Scene, pairs: int) -> Scene:
     return repeated.model_copy(update={"numerics": numerics, "campaign": repeated.campaign.model_copy(update=timeout)})
 
 
-def estimate(scene: Scene, coarse: Tally, fine: Tally) -> Discretisation:
-    """Compare the realizations of `scene` with those repeated at half its cell."""
-    differences = np.array([_difference(k, coarse, fine) for k in range(fine.maximum)])
+def estimate(scene: Scene, coarse: Tally, fine: Tally, repeated: Collection[int]) -> Discretisation:
+    """Compare the realizations of `scene` with those of them that were `repeated` at half its cell."""
+    pairs = range(fine.maximum)
+    differences = np.array([_difference(k, coarse, fine) if k in repeated else np.nan for k in pairs])
     deterministic = _difference(BASELINE, coarse, fine)
     return Discretisation(scene.numerics.cell, differences, deterministic, scene.campaign.confidence)
 

@@ -168,7 +168,7 @@ def test_walls_that_stop_all_slides_are_the_reason_that_is_given(twenty):
     }
     stopped = ended(twenty, range(20), baseline=Status.reached_wall, **pairs)
     (change,) = by_source(stopped, "Discretisation")
-    assert change.interval == "of the first 4 realizations the wall ahead stopped all 4 that slid"
+    assert change.interval == "the wall ahead stopped all 20 slides"
     (release,) = by_source(stopped, "Release")
     assert (release.value, release.interval) == ("not estimated", 'this run reached the wall ahead with "release"')
     (moving,) = by_source(ended(twenty, moving=range(20), baseline=Status.not_settled, **pairs), "Release")

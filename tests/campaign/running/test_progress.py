@@ -75,5 +75,6 @@ def test_what_does_not_slide_is_not_repeated():
 
 
 def test_what_did_not_slide_is_not_announced_to_be_repeated():
-    assert repeated_words({BASELINE, *range(8)}, 8) == "8 realizations and the deterministic run"
-    assert repeated_words({2, 3, 5}, 8) == "3 of the first 8 realizations, those that slid and met no wall,"
+    assert repeated_words({BASELINE, *range(8)}) == "8 slides and the deterministic run"
+    assert repeated_words({2}) == "1 slide"
+    assert repeated_words({BASELINE}) == "the deterministic run"
