@@ -19,7 +19,7 @@ from campaign.scene.layer_table import HEADINGS, layer_rows, told_by_layer, tren
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.outlook import may_slide, outlook
 from campaign.scene.sections import Softening
-from campaign.scene.softening import RING_SHEAR, is_brittle, softening_words
+from campaign.scene.softening import RING_SHEAR, is_brittle, is_progressive, softening_words
 from campaign.simulation.field_size import FieldSize
 from campaign.terminal import aligned, as_sentence, data_size, duration, paragraph
 
@@ -38,7 +38,7 @@ def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
         "water": water_words(scene),
         "factor of safety": _factors(look),
         "softening": _softenings(scene),
-        "what to expect": outlook(look, is_brittle(scene, look.height)),
+        "what to expect": outlook(look, is_brittle(scene, look.height), is_progressive(scene, look.height)),
         "time": _time(scene, look),
         "mesh": _mesh(scene),
         "random field": _field(size),

@@ -22,15 +22,23 @@ def may_slide(look: FirstLook) -> bool:
     return look.peak is None or look.slide_probability > 1.0 - CERTAIN
 
 
-def outlook(look: FirstLook, is_brittle: bool = False) -> str:
-    """Say what the factors of safety let expect, in sentences; whether the slope is brittle says `is_brittle`."""
+def outlook(look: FirstLook, is_brittle: bool = False, is_progressive: bool = False) -> str:
+    """Say what the factors of safety let expect, in sentences.
+
+    Parameters
+    ----------
+    look
+        With the factors.
+    is_brittle, is_progressive
+        How quick softening is; see `campaign.scene.softening`.
+    """
     if look.peak is None:
         return "No circle gives a factor of safety here; only a run tells."
     if look.slide_probability >= CERTAIN:
         return f"Nearly every realization slides.{_end(look)}"
     if look.slide_probability > 1.0 - CERTAIN:
         many = "Most" if look.slide_probability > 0.5 else "Some"
-        return f"{many} realizations slide: {_between(look, look.peak, is_brittle)}.{_end(look)}"
+        return f"{many} realizations slide: {_between(look, look.peak, is_brittle, is_progressive)}.{_end(look)}"
     if look.peak.factor < BARELY_STABLE and look.residual is not None and look.residual.factor < 1.0:
         return (
             "Hardly any realization slides by this measure, but softening can start a slide where the factor of safety "
@@ -39,15 +47,18 @@ def outlook(look: FirstLook, is_brittle: bool = False) -> str:
     return "No realization is expected to slide."
 
 
-def _between(look: FirstLook, peak: SlipCircle, is_brittle: bool) -> str:
+def _between(look: FirstLook, peak: SlipCircle, is_brittle: bool, is_progressive: bool) -> str:
     """Say how many slide: to first order in the strengths if each had one everywhere, and what that leaves out."""
     share = look.slide_probability
     percent = f"{100 * share:.{0 if 0.01 <= share <= 0.99 else 1}f} %"
     one = f"{percent} if each had one strength everywhere (standard deviation of the factor {look.spread:.2g})"
     averaged = f"{'more' if share > 0.5 else 'fewer'} where strength varies within the slope and averages out"
-    if not is_brittle or look.residual is None or look.residual.factor >= 1.0:
+    softens = (is_brittle or is_progressive) and look.residual is not None and look.residual.factor < 1.0
+    if not softens or (not is_brittle and peak.factor > PROGRESSIVE):
         return f"{one}, {averaged}"
     spreads = "it begins where the ground is weak and spreads"
+    if not is_brittle:
+        return f"{one}, and perhaps more, since softening may begin where the ground is weak and spread"
     if peak.factor <= PROGRESSIVE:
         return (
             f"{one}, and more, perhaps most, where softening is as quick as here: {spreads}, so that even slopes with "

@@ -12,6 +12,11 @@ LOCKED_BAND_THICKNESS = 4.4
 BRITTLE = 0.1
 """Slip to residual strength in heights of the slope, up to which a slope is brittle."""
 
+SPREADING = 1.0
+"""The same, up to which failure may spread from where the ground is weak. In a benched cut of 14 m with a factor of
+safety of 1.06, for which one strength everywhere foretells 26 %, 67 % of 30 realizations slid with a slip to residual
+strength of 1.5 m, 45 % of 40 with 4 m, 38 % with 15 m and 20 % with 50 m."""
+
 RING_SHEAR = "ring shear tests on clay need 0.1 to 0.5 m"
 
 
@@ -52,8 +57,17 @@ def is_brittle(scene: Scene, height: float) -> bool:
 
     One layer of such soil is enough.
     """
+    return _is_residual_after(BRITTLE * height, scene)
+
+
+def is_progressive(scene: Scene, height: float) -> bool:
+    """Whether strength is residual after a slip of the height in m: a slide may then begin in one place and spread."""
+    return _is_residual_after(SPREADING * height, scene)
+
+
+def _is_residual_after(slip: float, scene: Scene) -> bool:
     is_locked = scene.numerics.locking == "none"
-    return any(share_left(soil.softening, BRITTLE * height, is_locked) <= SHARE_LEFT for soil in scene.soils)
+    return any(share_left(soil.softening, slip, is_locked) <= SHARE_LEFT for soil in scene.soils)
 
 
 def softening_words(softening: Softening) -> str:

@@ -16,6 +16,7 @@ from campaign.scene.first_look import FirstLook, look_at
 from campaign.scene.layer_table import trend_words
 from campaign.scene.limit_equilibrium import Strata, critical_circle, factor_on
 from campaign.scene.outlook import outlook
+from campaign.scene.softening import is_brittle, is_progressive
 from campaign.simulation.field_size import field_size
 from solver.surface import slope_surface
 
@@ -155,6 +156,29 @@ def test_quick_softening_spreads_and_is_not_averaged_out(peak, residual, words):
     told = outlook(look(peak, residual), is_brittle=True)
     assert re.search(words, told)
     assert ("fewer" in told) == (residual >= 1.0)
+
+
+@pytest.mark.parametrize(
+    ("peak", "residual", "words"),
+    [
+        (1.06, 0.5, "Some realizations slide: 12 % .*and perhaps more, since softening may begin"),
+        (1.06, 1.0, "fewer where strength varies"),
+        (0.9, 0.5, "Most realizations slide: 98 % .*and perhaps more"),
+    ],
+)
+def test_softening_within_a_slip_of_the_height_may_spread(peak, residual, words):
+    """67 % slid at a factor of 1.06 where one strength everywhere foretells 26 %."""
+    assert re.search(words, outlook(look(peak, residual), is_progressive=True))
+
+
+@pytest.mark.parametrize(
+    ("slip", "quickness"),
+    [("0.5 m", (True, True)), ("1.5 m", (True, True)), ("4 m", (False, True)), ("16 m", (False, False))],
+)
+def test_how_quick_softening_is_depends_on_the_height(slip, quickness):
+    """The slope is 15 m high."""
+    scene = load_scene("ma2023", [f"soil.softening.slip_to_residual={slip}"])
+    assert (is_brittle(scene, 15.0), is_progressive(scene, 15.0)) == quickness
 
 
 @pytest.mark.parametrize(
