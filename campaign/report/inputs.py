@@ -105,7 +105,7 @@ def _effect_row(results: Results, key: str, effect: Interval, standing: int) -> 
     values = f"{shown(raised(scene, changed), changed)} instead of {shown(value, changed)}"
     is_in_proportion = cov and effect.n and not standing  # where slopes stand with more of it, the effect is not
     deviation = f"{_changed(_times(effect, cov / MORE))} for {100 * cov:g} %" if cov and is_in_proportion else ""
-    return EffectRow(changed.name, values, _changed(effect), str(effect.n), deviation)
+    return EffectRow(changed.name, values, _changed(effect, standing), str(effect.n), deviation)
 
 
 def _stood(results: Results, found: InputEffects) -> dict[str, int]:
@@ -137,19 +137,21 @@ def _largest(results: Results) -> str:
     unhindered = f", {whole} or more without the wall ahead or a failure in the way" if whole < slides else ""
     again = f"{counted(slides, 'slide')} {'was' if slides == 1 else 'were'} computed again for each{unhindered}."
     standing, named = _stood(results, found), by_key(results.scene)
-    if not found.clear():
+    clear = {key: effect for key, effect in known.items() if standing[key] or key in found.clear()}
+    if not clear:
         return (
-            f"{of_all} none has an effect on the run-out of a slide that can be told from none: {again}"
-            f"{_no_longer_slide(standing, slides, named)} A larger campaign.sensitivity_pairs may tell more."
+            f"{of_all} none has an effect on the run-out of a slide that can be told from none: {again} A larger "
+            "campaign.sensitivity_pairs may tell more."
         )
-    (key, effect), *others = [*found.clear().items()][:NAMED]
-    then = " and ".join(f"{named[other].name}, {_changed(each)}" for other, each in others)
+    (key, effect), *others = [*clear.items()][:NAMED]
+    then = " and ".join(f"{named[other].name}, {_changed(each, standing[other])}" for other, each in others)
     next_come = f"; next {'comes' if len(others) == 1 else 'come'} {then}" if others else ""
-    unclear = [each for each in known if each not in found.clear() and not standing[each]]
+    unclear = [each for each in known if each not in clear]
     most = "most" if not unclear else "most of those whose effect can be told from none"
     return (
-        f"{of_all} {named[key].name} changes the run-out of a slide {most}, by {_changed(effect)}{next_come}."
-        f"{_no_longer_slide(standing, slides, named)}{_unclear(unclear, named)} {again[0].upper()}{again[1:]}"
+        f"{of_all} {named[key].name} changes the run-out of a slide {most}, by {_changed(effect, standing[key])}"
+        f"{next_come}.{_no_longer_slide(standing, slides, named)}{_unclear(unclear, named)}"
+        f" {again[0].upper()}{again[1:]}"
     )
 
 
@@ -173,9 +175,23 @@ def _followed(what: str, ranking: Ranking | None, named: list[str]) -> str:
         len(named), f"all {len(named)} means together explain"
     )
     if closest.lower <= 0 <= closest.upper:
-        return f"{what} does not visibly follow the mean of a random property over all the ground that moves."
+        return _followed_together(what, ranking, named)
     bounds = f"{closest.estimate:+.2f}, between {closest.lower:+.2f} and {closest.upper:+.2f}"
     return f"{what} {follows} (rank correlation {bounds}); {means} {_share(ranking.explained)}."
+
+
+def _followed_together(what: str, ranking: Ranking, named: list[str]) -> str:
+    """Say which property an outcome follows where the others stay the same, as none is seen to count by itself."""
+    clear = {
+        name: each for name, each in zip(named, ranking.regression, strict=True) if not each.lower <= 0 <= each.upper
+    }
+    if not clear:
+        return f"{what} does not visibly follow the mean of a random property over all the ground that moves."
+    closest = max(clear, key=lambda name: abs(clear[name].estimate))
+    return (
+        f"{what} follows the mean {closest} of all the ground that moves most closely where the others stay the same "
+        f"(regression {_signed(clear[closest])}); alone none is seen to matter, as they vary together."
+    )
 
 
 def _mapped(results: Results, found: SensitivityMap | None) -> str:
@@ -245,10 +261,15 @@ def _why_no_effects(results: Results) -> str:
     return "the slides to say what the inputs do were not computed again"
 
 
-def _changed(change: Interval) -> str:
-    """Write a change of the run-out with its bounds, "-1.39 m (-1.58 to -1.20 m)"."""
+def _changed(change: Interval, standing: int = 0) -> str:
+    """Write a change of the run-out with its bounds, "-1.39 m (-1.58 to -1.20 m)".
+
+    Where some slopes stand and others slide, Student's t bounds nothing: a slope loses no more than its run-out.
+    """
     if change.n == 0:
         return UNKNOWN
+    if 0 < standing < change.n:
+        return f"{change.estimate:+.2f} m ({standing} of {change.n} slides then stand)"
     bounds = f"{change.lower:+.2f} to {change.upper:+.2f} m" if change.is_known else "too few slides for an interval"
     return f"{change.estimate:+.2f} m ({bounds})"
 

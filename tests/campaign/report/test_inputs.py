@@ -82,6 +82,8 @@ def test_slopes_that_stand_with_more_of_an_input_are_told_and_not_extrapolated(r
     assert "no longer slide at all: " in told
     assert "4 with 10 % more mean peak friction angle" in told
     assert "3 with 10 % more mean peak cohesion" in told
+    assert f", by {-front.mean():+.2f} m (" in told
+    assert f"; next come mean peak cohesion, {rows[cohesion].mean():+.2f} m (3 of 4 slides then stand) and " in told
     assert "ean peak cohesion has an effect lost" not in told
     per_deviation = {row.name: row.per_deviation for row in effect_rows(standing)}
     assert per_deviation["mean peak friction angle"] == per_deviation["mean peak cohesion"] == ""
@@ -96,6 +98,24 @@ def test_rows_are_in_the_order_of_effect(results):
     assert (cohesion.values, cohesion.pairs) == ("22 kPa instead of 20 kPa", "4")
     assert cohesion.per_deviation == f"{cohesion.change} for 10 %"
     assert [row.name for row in property_rows(results, "runout")] == ["peak cohesion", "peak friction angle"]
+
+
+def test_a_property_that_others_hide_is_named_all_the_same(results):
+    """Negative correlation between cohesion and friction: each makes up for the other, and only together they tell."""
+    numbers = {
+        "runout_correlation": [-0.22, -0.2],
+        "runout_correlation_ci": [[-0.53, 0.11], [-0.51, 0.16]],
+        "runout_regression": [-0.49, -0.47],
+        "runout_regression_ci": [[-0.85, -0.24], [-0.78, -0.18]],
+    }
+    hidden = results.data.assign({name: results.data[name].copy(data=given) for name, given in numbers.items()})
+    assert (
+        "follows the mean peak cohesion of all the ground that moves most closely where the others stay the same "
+        "(regression -0.49 (-0.85 to -0.24)); alone none is seen to matter, as they vary together."
+    ) in sentences(Results(hidden, results.scene))[1]
+    wide = hidden["runout_regression_ci"].copy(data=[[-0.85, 0.24], [-0.78, 0.18]])
+    unseen = hidden.assign(runout_regression_ci=wide)
+    assert "does not visibly follow the mean" in sentences(Results(unseen, results.scene))[1]
 
 
 def test_where_only_sliding_is_ranked_the_chapter_is_there_with_that():
