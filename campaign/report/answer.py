@@ -122,7 +122,7 @@ def _chance(results: Results) -> str:
     within, confidence = chance_of_slide(probability), f"{100 * results.confidence:g} % confidence"
     if given.slides == 0:
         stable = "It does not slide: " if probability.upper <= RARE else ""
-        more = _bounded_by_less(results) if stable else _not_yet_stable(results)
+        more = _bounded_by_less(results) if stable else _not_yet_rare(results)
         return f"{stable}{seen} slid, so the probability of a slide is {within} ({confidence}). {more}"
     if given.slides < given.usable:
         within = f"{chance(probability.estimate)}, {within}"
@@ -142,9 +142,10 @@ def _bounded_by_less(results: Results) -> str:
     )
 
 
-def _not_yet_stable(results: Results) -> str:
-    """Say how many realizations without a slide call a slope stable."""
-    return f"It takes {results_to_bound(RARE, results.confidence):,} without a slide to call the slope stable."
+def _not_yet_rare(results: Results) -> str:
+    """Say how many realizations without a slide show that slides are rare."""
+    number = results_to_bound(RARE, results.confidence)
+    return f"It takes {number:,} without a slide to bound it by {100 * RARE:g} %."
 
 
 def _slides(results: Results) -> list[str]:

@@ -241,7 +241,7 @@ def test_one_has_no_plural_anywhere(tmp_path, ground):
 def test_no_slide_in_few_realizations_is_not_yet_an_answer(tmp_path, ground):
     page = made_up_page(tmp_path, ground, [0.0] * 12, [Status.no_slide] * 12)
     assert "0 of 12 realizations slid, so the probability of a slide is at most 26 % (95 % confidence)." in page.text
-    assert "It takes 36 without a slide to call the slope stable" in page.text  # 0.025^(1/36) = 0.903
+    assert "It takes 36 without a slide to bound it by 10 %" in page.text  # 0.025^(1/36) = 0.903
     assert "none slid, so the probability of a slide is at most 26 %; 36 without a slide bound it by 10 %" in page.text
 
 
