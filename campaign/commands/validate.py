@@ -67,4 +67,4 @@ def _trial(scene: "Scene", look: "FirstLook") -> Seen | None:
 
     made = trial(scene, look)
     say(paragraph("mean strengths", trial_text(scene, made), MARGIN))
-    return Seen(foreseen(scene, made), remarks(made)) if made is not None and made.slides else None
+    return Seen(foreseen(scene, look, made), remarks(made)) if made is not None and made.slides else None

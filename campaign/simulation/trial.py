@@ -8,7 +8,7 @@ from campaign.record import SLID, Record, Status
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint, found
 from campaign.scene.cost import realization_seconds
-from campaign.scene.first_look import TYPICAL_SLIDE, FirstLook
+from campaign.scene.first_look import LONGEST_SLIDE, TYPICAL_SLIDE, FirstLook
 from campaign.scene.foresight import longer_plain
 from campaign.scene.rules.numerics import LEAST_CELLS_OF_HEIGHT
 from campaign.seeds import BASELINE
@@ -104,9 +104,9 @@ def trial(scene: Scene, look: FirstLook) -> Trial | None:
         return None
 
 
-def foreseen(scene: Scene, made: Trial) -> list[Complaint]:
+def foreseen(scene: Scene, look: FirstLook, made: Trial) -> list[Complaint]:
     """Return what a trial that slid lets expect of realizations."""
-    return found((short_ground(scene, made), short_run(scene, made)))
+    return found((short_ground(scene, made), short_run(scene, made, LONGEST_SLIDE * look.time_scale)))
 
 
 def short_ground(scene: Scene, made: Trial) -> Complaint | None:
@@ -121,13 +121,13 @@ def short_ground(scene: Scene, made: Trial) -> Complaint | None:
     return longer_plain(scene, surface, needed, text)
 
 
-def short_run(scene: Scene, made: Trial) -> Complaint | None:
-    """Warn of an end at which slides will not be at rest."""
+def short_run(scene: Scene, made: Trial, longest: float) -> Complaint | None:
+    """Warn of an end at which slides will not be at rest, of which comparable ones take `longest` s at most."""
     rest, end = made.rest, scene.numerics.end_time
     if LATER * rest <= end or (not isfinite(rest) and made.record.status is Status.slid):
         return None
     slide = f"takes {rest:.2g} s to come to rest" if isfinite(rest) else "still moves then"
-    longer = rounded_up(2.0 * (rest if isfinite(rest) else end))
+    longer = rounded_up(2.0 * rest if isfinite(rest) else max(2.0 * end, longest))
     return Complaint(
         "numerics.end_time",
         f"the slide with mean strengths {slide}, and what still moves at the end counts as not settled; use "
