@@ -56,7 +56,8 @@ def means_of(directory: CampaignDirectory, prepare: Prepare, crew: Crew, stop: S
         is_rehearsed = is_rehearsed or rehearses
         order = Order(ground, level.directory, wanted.digest(), timeout, end, breaks_off, rehearses)
         dispatcher = Dispatcher(tally, obstacle, _unless_stopped(stop, level.tidier(tally)))
-        progress = Progress(tally, partial(seconds_beyond_sampling, wanted, crew.size) if is_main else nothing_ahead)
+        ahead = partial(seconds_beyond_sampling, wanted, crew.size) if is_main else nothing_ahead
+        progress = Progress(tally, ahead, is_beside=not is_main)
         crew.compute(order, dispatcher, lambda: dispatcher.observe(progress.tick))
         return dispatcher.stopped
 

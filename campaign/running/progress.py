@@ -35,10 +35,21 @@ class Progress:
         The account of the campaign, holding what earlier starts have finished.
     ahead
         How long the runs that follow will take.
+    is_beside
+        Whether these are runs beside the campaign, whose account may hold realizations of the campaign itself: they
+        are counted, and nothing is estimated from the mixture.
     """
 
-    def __init__(self, tally: Tally, ahead: Ahead = nothing_ahead, speak: Callable[[str], None] = say) -> None:
+    def __init__(
+        self,
+        tally: Tally,
+        ahead: Ahead = nothing_ahead,
+        speak: Callable[[str], None] = say,
+        is_beside: bool = False,
+    ) -> None:
         self._ahead = ahead
+        self._is_beside = is_beside
+        self._missing = tally.maximum - tally.done
         self._speak = speak
         self._begin = self._last = time.monotonic()
         self._before = tally.done
@@ -56,6 +67,10 @@ class Progress:
         """Return the state of the campaign with the time since its start and the time left."""
         elapsed = time.monotonic() - self._begin
         rate = (tally.done - self._before) / elapsed if elapsed > 0 else 0.0
+        if self._is_beside:
+            left = tally.maximum - tally.done
+            time_left = f", {duration(left / rate)} left" if left and rate > 0 else ""
+            return f"[{clock(elapsed)}] {tally.done - self._before} of {self._missing} done{time_left}"
         return f"[{clock(elapsed)}] {state_line(tally)}{_time_left(tally, rate, self._ahead)}"
 
 

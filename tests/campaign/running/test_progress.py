@@ -56,6 +56,17 @@ def test_the_time_left_is_that_of_all_runs(monkeypatch):
     assert line.endswith("| at most 3 min left, 60 s of it for mesh, release and inputs")
 
 
+def test_runs_beside_a_campaign_are_counted_and_estimate_nothing(monkeypatch):
+    """Four slides of nine realizations are computed again; the account holds the other five as they were."""
+    times = iter([0.0, 6.0])
+    monkeypatch.setattr("campaign.running.progress.time.monotonic", lambda: next(times))
+    tally = filled([BASELINE, 0, 2, 3, 4, 7], maximum=9)
+    progress = Progress(tally, is_beside=True)
+    for k in (1, 5, 6):
+        tally.add(summary_of(k, 9.0, Status.slid))
+    assert progress.line(tally) == "[0:00:06] 3 of 4 done, 2 s left"
+
+
 @pytest.mark.parametrize(
     ("ranks", "seconds"),
     [(1, 8 * 9 + 1 + 8 * 4), (2, 8 * 5 + 1 + 8 * 2), (16, 8 + 1 + 8)],
@@ -64,6 +75,14 @@ def test_what_follows_is_counted_in_rounds_of_all_ranks(ranks, seconds):
     """A realization takes 1 s. Half the cell: 8 realizations and the deterministic one, 8 s each. 8 inputs, 4 each."""
     tally = filled([BASELINE, *range(30)])
     assert seconds_beyond_sampling(load_scene("ma2023"), ranks, tally, float(ranks)) == seconds
+
+
+def test_what_follows_a_slope_that_seldom_slides_is_what_its_slides_take():
+    """2 of 20 slid: 2 at half the cell, 1 with the other release with mean strengths, 2 with each of 8 inputs."""
+    tally = filled([])
+    for k in (BASELINE, *range(20)):
+        tally.add(summary_of(k, 9.0, Status.slid if k in (9, 17) else Status.no_slide))
+    assert seconds_beyond_sampling(load_scene("ma2023"), 1, tally, 1.0) == 2 * 8 + 1 + 2 * 8
 
 
 def test_what_does_not_slide_is_not_repeated():
