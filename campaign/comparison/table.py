@@ -26,7 +26,7 @@ def _table(given: Comparison, found: Sequence[Measure], other: int) -> list[str]
     changes = given.changes(other)
     told = [f"  {each.key} is {each.other} instead of {each.first}" for each in changes]
     titles = ("", first, name, "difference", f"{100 * given.confidence:g} % interval", "paired", "unpaired")
-    rows = [titles, *(_row(measure, measure.differences[other - 1]) for measure in found)]
+    rows = [titles, *(_row(measure, measure.differences[other - 1], len(given.ids)) for measure in found)]
     widths = [max(len(row[column]) for row in rows) for column in range(len(titles))]
     over = "standard error".rjust(sum(widths) + 2 * (len(widths) - 1))
     return [
@@ -44,7 +44,7 @@ def _line(row: Sequence[str], widths: Sequence[int]) -> str:
     return "  ".join(cells).rstrip()
 
 
-def _row(measure: Measure, found: Difference) -> tuple[str, ...]:
+def _row(measure: Measure, found: Difference, pairs: int) -> tuple[str, ...]:
     factor, unit, digits = UNITS[measure.unit]
     points = "points" if measure.unit == "1" else unit
 
@@ -66,7 +66,8 @@ def _row(measure: Measure, found: Difference) -> tuple[str, ...]:
     }[lower == -math.inf, upper == math.inf]
     side = {(False, True): "at least ", (True, False): "at most "}.get(is_least, "")
     difference = f"{side}{number(estimate, '+')} {points}" if n else ""
-    return (measure.words, *estimates, difference, bounds, *errors)
+    of_some = f", {n} pairs" if n < pairs else ""
+    return (f"{measure.words}{of_some}", *estimates, difference, bounds, *errors)
 
 
 def _as_bound(told: str, value: float, is_least: bool) -> str:

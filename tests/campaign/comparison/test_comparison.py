@@ -45,6 +45,7 @@ def test_run_out_is_zero_without_a_slide_and_given_sliding_it_is_not(two):
     assert found["mean run-out, 0 without a slide"].interval.estimate == pytest.approx(without.mean())
     assert found["mean run-out where all slide"].interval.estimate == pytest.approx(-2.0)
     assert found["mean run-out where all slide"].interval.n == 7
+    assert "mean run-out where all slide, 7 pairs " in as_text(compare(two), measures(compare(two), []), [])
     assert found["mean sliding volume, 0 without a slide"].interval.estimate == pytest.approx(10 * without.mean())
     assert found["P(slide)"][:2] == (1.0, 0.7)
     shares = np.mean(RUNOUTS[1:11] > 9.0), np.mean(np.where(np.arange(1, 11) < 8, RUNOUTS[1:11] - 2.0, 0.0) > 9.0)
@@ -122,6 +123,7 @@ def test_a_difference_from_slides_cut_short_has_one_bound(tmp_path):
     mean = found["mean run-out, 0 without a slide"]
     assert mean.interval.lower == pytest.approx(plain.interval.lower)
     told = " ".join(as_text(given, measures(given, [9.0]), doubts(given)).split())
+    # N
     assert f"at least {RUNOUTS.mean() - 2.0:.2f} m at least -2.00 m at least {mean.interval.lower:+.2f}" in told
     back = " ".join(as_text(compare([walled, free]), measures(compare([walled, free]), []), []).split())
     assert f"at least {RUNOUTS.mean() - 2.0:.2f} m {RUNOUTS.mean():.2f} m at most +2.00 m at most +2.00" in back
