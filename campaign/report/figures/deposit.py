@@ -10,9 +10,13 @@ from campaign.report.figures.section import Section
 from campaign.report.figures.style import BLUE, ORANGE, STILL
 from campaign.results.results import Results
 from campaign.simulation.solver_model import Array
+from solver.surface import Surface
 
 FEWEST = 20
 """Of fewer slides the band is from the lowest to the highest surface, as a 5 % quantile is not known."""
+
+POINTS = 20
+"""In each column, at which the elevation of the ground is averaged."""
 
 VISIBLE = 0.05
 """Metres of movement from which on a surface is drawn that has not slid."""
@@ -35,17 +39,27 @@ class Deposit(NamedTuple):
         return np.interp(x, self.x, np.maximum(self.before, self.high))
 
 
-def deposit_of(results: Results, width: float) -> Deposit:
-    """Return the surfaces after the slides, or of all realizations if nothing slid, between walls `width` m apart."""
+def deposit_of(results: Results, surface: Surface) -> Deposit:
+    """Return the surface of the ground and what the slides make of it, or all realizations if nothing slid.
+
+    The dataset's surfaces are those of particles, up to a quarter of a cell off the ground that they fill. So it is the
+    change from its initial surface that is added to the ground's own, column by column.
+    """
     data, which = results.data, results.has_slid if results.outcomes.slides else ~results.has_failed
-    surfaces = data["deposit_surface"].values[which]
+    x, ground = data["x"].values, columns_of(surface, data["x"].values)
+    surfaces = ground + data["deposit_surface"].values[which] - data["initial_surface"].values
     shares, band = ([0.05, 0.5, 0.95], "5 to 95 %") if len(surfaces) >= FEWEST else ([0, 0.5, 1], "lowest to highest")
     before, low, median, high = (
-        np.pad(column, 1, mode="edge")
-        for column in (data["initial_surface"].values, *np.quantile(surfaces, shares, axis=0))
+        np.pad(column, 1, mode="edge") for column in (ground, *np.quantile(surfaces, shares, axis=0))
     )
-    x = np.concatenate([[0.0], data["x"].values, [width]])
-    return Deposit(x, before, low, median, high, band)
+    return Deposit(np.concatenate([[0.0], x, [surface.width]]), before, low, median, high, band)
+
+
+def columns_of(surface: Surface, x: Array) -> Array:
+    """Return the mean elevation in m of the ground in each of the columns around `x` (m), which fill its width."""
+    within = (np.arange(POINTS) + 0.5) / POINTS - 0.5
+    mean: Array = surface.height_at(x[:, None] + surface.width / len(x) * within).mean(axis=1)
+    return mean
 
 
 def draw_deposit(axes: Axes, deposit: Deposit, section: Section, has_slides: bool) -> None:

@@ -40,7 +40,7 @@ class Panels(NamedTuple):
 def overview(results: Results, curve: Curve, section: Section, width: float) -> Illustration:
     """Draw the section with all that the first screen says of it, `width` inches wide."""
     scale = (width - LEFT - RIGHT) / section.right
-    deposit, labels = deposit_of(results, section.surface.width), marks(results, section, width >= WIDE)
+    deposit, labels = deposit_of(results, section.surface), marks(results, section, width >= WIDE)
     placed = place_labels(labels, deposit.clear, scale, section.right)
     section = replace(section, top=max(section.top, highest(placed, scale)))
     panels = _panels(section, width, results.outcomes.slides > 0)

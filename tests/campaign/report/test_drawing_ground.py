@@ -4,8 +4,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from campaign.report import moving
+from campaign.report.figures.deposit import columns_of, deposit_of
 from campaign.report.figures.domains import LONGEST, SHORTEST, corners, deformation_gradients, undeformed
 from campaign.report.figures.labels import Label, highest, place_labels
 from campaign.report.figures.particles import LEVELS, Scale, rectangles, still_areas
@@ -146,3 +148,25 @@ def test_no_line_crosses_a_name_on_a_short_section():
     for one in placed:
         crossed = [other for other in placed if one.left < other.label.x < one.right and one.bottom < other.bottom]
         assert not crossed
+
+
+def test_ground_that_no_slide_moves_is_drawn_as_high_as_the_slope_is():
+    """The dataset's surface is a quarter of a cell too high where particles fill the ground only so."""
+    surface = Surface(np.array([0.0, 4.0, 6.0, 10.0]), np.array([3.3, 3.3, 1.3, 1.3]))
+    x = np.arange(10) + 0.5
+    of_particles = columns_of(surface, x) + 0.2
+    after = np.stack([of_particles, of_particles + np.where(x > 6.0, 0.5, 0.0)])
+    data = xr.Dataset(
+        {"initial_surface": ("x", of_particles), "deposit_surface": (("realization", "x"), after)}, {"x": x}
+    )
+    outcomes = SimpleNamespace(slides=2)
+    deposit = deposit_of(SimpleNamespace(data=data, outcomes=outcomes, has_slid=np.full(2, True)), surface)
+    assert (deposit.x[0], deposit.x[-1]) == (0.0, 10.0)
+    np.testing.assert_allclose(deposit.before[1:5], 3.3)
+    np.testing.assert_allclose(deposit.median[1:7], deposit.before[1:7])
+    np.testing.assert_allclose(deposit.median[7:] - 1.3, 0.25)
+
+
+def test_a_column_with_a_vertical_face_has_the_mean_elevation():
+    surface = Surface(np.array([0.0, 1.5, 1.5, 3.0]), np.array([4.0, 4.0, 1.0, 1.0]))
+    np.testing.assert_allclose(columns_of(surface, np.array([0.5, 1.5, 2.5])), [4.0, 2.5, 1.0])
