@@ -13,6 +13,7 @@ from campaign.statistics.intervals import Interval
 from campaign.statistics.proportions import failure_bounds
 from campaign.statistics.total import has_mesh_error
 from campaign.statistics.wording import at_least, chance, chances, estimated_chance, least, metres, so_far
+from campaign.terminal import counted
 
 NOT_ESTIMATED = "not estimated"
 
@@ -132,11 +133,18 @@ def _whatever_happened(name: str, count: int, usable: int, failed: int, undecide
 
 
 def _unknown_to_the_mesh(results: Results) -> list[Row]:
-    """Return that nobody has measured what the mesh does to the probability of a slide, where it is in doubt."""
+    """Return what is known of what the mesh does to the probability of a slide, where that is in doubt."""
     slides = results.outcomes.slides
-    remedy = "repeat the campaign with half the cell and compare"
-    is_open = slides < results.outcomes.usable
-    return [Row("Discretisation", "probability of a slide, by the mesh", NOT_ESTIMATED, remedy, "")] if is_open else []
+    remedy, value, n = "repeat the campaign with half the cell and compare", NOT_ESTIMATED, ""
+    found = results.discretisation
+    if found is not None and found.standing:
+        value, n = (
+            f"{found.standing} of {counted(found.repeated, 'slide')} stand with half the cell",
+            str(found.repeated),
+        )
+        remedy = f"slides that it adds are not known: {remedy}"
+    is_open = slides < results.outcomes.usable or n
+    return [Row("Discretisation", "probability of a slide, by the mesh", value, remedy, n)] if is_open else []
 
 
 def _discretisation(results: Results) -> list[Row]:

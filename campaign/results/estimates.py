@@ -83,6 +83,8 @@ def of_discretisation(found: Discretisation) -> Variables:
     change = "final run-out with half the cell minus that with the cell"
     error = variable((), found.error, "m", "estimated size of the discretisation error of runout_mean")
     error.attrs |= {"cell": found.cell, "half_cell": found.cell / 2, "pairs": found.interval.n, "comment": METHOD}
+    differences = variable("pair", found.differences, "m", change)
+    differences.attrs |= {"repeated": found.repeated, "standing": found.standing}
     return {
         "pair": variable("pair", range(len(found.differences)), "1", "realization repeated with half the cell", "i4"),
         "discretisation_error": error,
@@ -90,7 +92,7 @@ def of_discretisation(found: Discretisation) -> Variables:
         "discretisation_change_ci": variable(
             "bound", found.interval[1:3], "m", "confidence interval of discretisation_change (Student t)"
         ),
-        "paired_difference": variable("pair", found.differences, "m", change),
+        "paired_difference": differences,
         "deterministic_paired_difference": variable((), found.deterministic, "m", f"{change}, with mean strengths"),
     }
 

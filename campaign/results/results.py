@@ -95,7 +95,9 @@ class Results:
         if "paired_difference" not in self.data:
             return None
         differences, deterministic = self.data["paired_difference"], self.data["deterministic_paired_difference"]
-        return Discretisation(self.scene.numerics.cell, differences.values, float(deterministic), self.confidence)
+        repeated, standing = (int(differences.attrs.get(name, 0)) for name in ("repeated", "standing"))
+        cell, change = self.scene.numerics.cell, float(deterministic)
+        return Discretisation(cell, differences.values, change, self.confidence, repeated, standing)
 
     @property
     def release(self) -> ReleaseComparison | None:

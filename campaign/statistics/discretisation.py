@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from campaign.record import Status
 from campaign.scene import Scene
 from campaign.scene.cost import HALF_CELL_COST
 from campaign.seeds import BASELINE
@@ -38,12 +39,17 @@ class Discretisation(NamedTuple):
         The same for the run with mean strengths.
     confidence : float
         Of `interval`.
+    repeated, standing : int
+        Slides that were repeated, without the run with mean strengths, and how many of them do not slide with half the
+        cell.
     """
 
     cell: float
     differences: Sample
     deterministic: float
     confidence: float
+    repeated: int = 0
+    standing: int = 0
 
     @property
     def interval(self) -> Interval:
@@ -70,7 +76,11 @@ def estimate(scene: Scene, coarse: Tally, fine: Tally, repeated: Collection[int]
     pairs = range(fine.maximum)
     differences = np.array([_difference(k, coarse, fine) if k in repeated else np.nan for k in pairs])
     deterministic = _difference(BASELINE, coarse, fine)
-    return Discretisation(scene.numerics.cell, differences, deterministic, scene.campaign.confidence)
+    slides = [k for k in pairs if k in repeated]
+    standing = sum(fine.summaries[k].status is Status.no_slide for k in slides)
+    return Discretisation(
+        scene.numerics.cell, differences, deterministic, scene.campaign.confidence, len(slides), standing
+    )
 
 
 def _difference(realization: int, coarse: Tally, fine: Tally) -> float:

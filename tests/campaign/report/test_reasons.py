@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy import stats
 from small_campaign import conclude, made_up, small_scene
 
@@ -181,6 +182,16 @@ def test_walls_that_stop_all_slides_are_the_reason_that_is_given(twenty):
     assert by_source(stopped, "Sampling")[-1].quantity.endswith(
         "of more than 9.00 m, as far as it came with mean strengths"
     )
+
+
+def test_slides_that_stand_with_half_the_cell_are_told(twenty):
+    """Two of four: what that makes of the probability of a slide is open, as half the cell may add other slides."""
+    repeated = xr.Variable("pair", [np.nan, -2.9, np.nan, -0.6], {"repeated": 4, "standing": 2})
+    pairs = {"paired_difference": repeated, "deterministic_paired_difference": ((), np.nan)}
+    probability, change = by_source(ended(twenty, **pairs), "Discretisation")
+    assert (probability.value, probability.n) == ("2 of 4 slides stand with half the cell", "4")
+    assert probability.interval.startswith("slides that it adds are not known: repeat the campaign")
+    assert change.n == "2"
 
 
 @pytest.mark.parametrize(("baseline", "other"), [(Status.slid, Status.no_slide), (Status.no_slide, Status.slid)])

@@ -25,7 +25,7 @@ RECORDS = [make_record(k, status, "no mass" if status is Status.crashed else "")
 def path(tmp_path_factory):
     prefixes = prefixes_of([summarize(record) for record in RECORDS])
     estimates = convergence_history(prefixes, StoppingRule(0.01, 0.1, 0.95, 20, 25, 0.1), 10.0)
-    pairs = Discretisation(1.0, np.array([-0.5, np.nan, -1.5]), 0.25, 0.95)
+    pairs = Discretisation(1.0, np.array([-0.5, np.nan, -1.5]), 0.25, 0.95, 3, 1)
     release = ReleaseComparison("ramp", summary_of(BASELINE, 11.0))
     about = {"seed": "7", "scene": "title = 'é'\n"}
     blocks = [columns_of(RECORDS[:30]), columns_of(RECORDS[30:])]
@@ -118,6 +118,7 @@ def test_the_discretisation_error_comes_with_its_pairs(opened):
     error = opened.discretisation_error
     assert (float(error), error.attrs["units"], error.attrs["half_cell"], error.attrs["pairs"]) == (1.0, "m", 0.5, 2)
     np.testing.assert_array_equal(opened.paired_difference, [-0.5, np.nan, -1.5])
+    assert (opened.paired_difference.attrs["repeated"], opened.paired_difference.attrs["standing"]) == (3, 1)
     assert float(opened.discretisation_change) == -1.0
     assert opened.discretisation_change_ci.dims == ("bound",)
 

@@ -58,13 +58,16 @@ def test_only_pairs_of_which_both_count_enter(scene):
     found = estimate(scene, coarse, fine, range(5))
     np.testing.assert_array_equal(found.differences, [1.0, np.nan, 2.0, np.nan, np.nan])
     assert (found.error, found.interval.n, found.deterministic) == (1.5, 2, 0.5)
+    assert (found.repeated, found.standing) == (5, 1)
 
 
 def test_what_was_not_repeated_is_no_pair(scene):
     """The account of half the cell holds with their own cells the realizations that are not repeated."""
     coarse = account(scene, [9.0, 10.0, 11.0, 0.0, 13.0], _2=Status.no_slide)
     fine = account(with_half_cell(scene, 4), [9.5, 10.0, 12.0, 0.0, 14.0], _2=Status.no_slide)
-    np.testing.assert_array_equal(estimate(scene, coarse, fine, {1, 3}).differences, [np.nan, 1.0, np.nan, 1.0])
+    found = estimate(scene, coarse, fine, {BASELINE, 1, 3})
+    np.testing.assert_array_equal(found.differences, [np.nan, 1.0, np.nan, 1.0])
+    assert (found.repeated, found.standing) == (2, 0)
 
 
 def test_the_estimate_is_a_size_and_the_change_has_a_sign():
