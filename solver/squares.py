@@ -93,7 +93,8 @@ def _whole(rows: np.ndarray, side: float) -> tuple[np.ndarray, ...]:
 def _counted(counts: np.ndarray) -> np.ndarray:
     """Return 0, 1, ... for each count, one after the other."""
     ends = np.cumsum(counts)
-    return np.arange(counts.sum()) - np.repeat(ends - counts, counts)
+    numbers: np.ndarray = np.arange(counts.sum()) - np.repeat(ends - counts, counts)
+    return numbers
 
 
 def _moments(pieces: _Pieces, bottom: np.ndarray, side: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
