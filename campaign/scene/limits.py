@@ -4,7 +4,16 @@ from math import sqrt
 
 from campaign.scene import Scene
 from campaign.scene.complaints import Complaint, found
-from campaign.scene.cost import dataset_bytes, output_count, particle_count, rank_bytes, record_bytes, time_step
+from campaign.scene.cost import (
+    dataset_bytes,
+    output_count,
+    particle_count,
+    rank_bytes,
+    realization_seconds,
+    record_bytes,
+    step_count,
+    time_step,
+)
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.more_ground import key_of
 from campaign.terminal import data_size
@@ -21,15 +30,17 @@ LOSS_PER_STEP = 0.003
 LONG_GROUND = 100.0
 """Width over height of ground that is meant to be shorter."""
 
+YEAR = 365.25 * 86400.0
+"""Seconds that a realization may take: nobody has waited for one so long."""
+
 COPIES = 2
 """Of the results that rank 0 holds when it writes them: as records, and as a dataset."""
 
 
 def refusals(scene: Scene, memory: float) -> list[Complaint]:
     """Return why a scene cannot be run on a machine with so much memory (bytes); nothing if it can."""
-    particles = too_many_particles(scene, memory)
-    results = None if particles else too_large_results(scene, memory)
-    return found((particles, results, too_long_average(scene), too_much_damping(scene)))
+    size = too_many_particles(scene, memory) or too_large_results(scene, memory) or endless(scene)
+    return found((size, too_long_average(scene), too_much_damping(scene)))
 
 
 def too_many_particles(scene: Scene, memory: float) -> Complaint | None:
@@ -58,6 +69,26 @@ def too_large_results(scene: Scene, memory: float) -> Complaint | None:
         return Complaint("numerics.output_interval", f"{text}; use a longer interval")
     largest = int(memory / (COPIES * record_bytes(scene)))
     return Complaint("campaign.realizations", f"their results take {sizes}; use at most {largest:,}")
+
+
+def endless(scene: Scene) -> Complaint | None:
+    """Complain about realizations that nobody lives to see, under the key that is farthest from what is usual."""
+    seconds, step, numerics = realization_seconds(scene), time_step(scene), scene.numerics
+    if seconds <= YEAR:
+        return None
+    beyond_usual = {
+        "numerics.courant": 0.3 / numerics.courant,
+        "numerics.end_time": numerics.end_time / 100.0,
+        "numerics.output_interval": step / numerics.output_interval,
+        "numerics.cell": particle_count(scene) / 1e5,
+        "soil.young_modulus": sqrt(max(soil.young_modulus for soil in scene.soils) / 1e8),
+        "soil.unit_weight": sqrt(2e4 / min(soil.unit_weight for soil in scene.soils)),
+    }
+    return Complaint(
+        max(beyond_usual, key=beyond_usual.__getitem__),
+        f"a realization then takes {step_count(scene):.2g} steps of {step:.2g} s, {seconds / YEAR:.2g} years; check "
+        "what decides them (courant, cell, young_modulus, unit_weight, end_time)",
+    )
 
 
 def too_long_average(scene: Scene) -> Complaint | None:
