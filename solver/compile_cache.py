@@ -22,6 +22,9 @@ HOME = Path(__file__).parent
 
 NAME = "runout-solver"
 
+INSTALLED = {"site-packages", "dist-packages"}
+"""Names of directories that belong to installers: what is written there outlives the package."""
+
 JOBS = ("SLURM_JOB_ID", "PBS_JOBID", "LSB_JOBID")
 """What batch systems set in their jobs."""
 
@@ -62,8 +65,8 @@ class _First(event.Listener):
 
 @cache
 def directory() -> Path:
-    """Return the directory, below the first of `places` that is ours alone."""
-    return next(place for place in places() if is_ours_alone(place)) / source_digest()
+    """Return the directory, below the first of `places` that is ours alone and not among sources."""
+    return next(place for place in places() if not is_among_sources(place) and is_ours_alone(place)) / source_digest()
 
 
 def places() -> Iterator[Path]:
@@ -93,6 +96,12 @@ def source_digest() -> str:
     for source in sorted(HOME.rglob("*.py")):
         digest.update(f"{source.relative_to(HOME)}\n".encode() + source.read_bytes())
     return digest.hexdigest()[:16]
+
+
+def is_among_sources(path: Path) -> bool:
+    """Whether `path` lies within this package or among installed ones, where no code is kept whoever asks for it."""
+    real = path.resolve()
+    return real.is_relative_to(HOME.resolve()) or not INSTALLED.isdisjoint(real.parts)
 
 
 def is_ours_alone(path: Path) -> bool:

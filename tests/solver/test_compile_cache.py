@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import sysconfig
 import tempfile
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import numba
 import pytest
 
 import solver.step  # noqa: F401  -- whatever it sets must not stay
+from solver import compile_cache as module
 from solver.compile_cache import JOBS, compile_cache, directory, is_ours_alone, telling_of_compilation
 
 
@@ -42,6 +44,26 @@ def test_a_job_keeps_code_on_its_node(home, monkeypatch, job):
 def test_numbas_own_directory_goes_first(home, monkeypatch):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(home / "given"))
     assert chosen() == home / "given" / f"runout-solver-{os.getuid()}"
+
+
+@pytest.mark.parametrize("name", ["NUMBA_CACHE_DIR", "XDG_CACHE_HOME"])
+@pytest.mark.parametrize(
+    "within",
+    [
+        module.HOME,
+        module.HOME / "laws",
+        sysconfig.get_path("purelib"),
+        "venv/lib/python3/site-packages",
+        "dist-packages",
+    ],
+)
+def test_nothing_is_written_beside_sources_nor_among_installed_packages(home, monkeypatch, name, within):
+    """Whatever the environment says, by a link too; not even a directory is made there."""
+    (home / "link").symlink_to(home / within)
+    for place in (home / within, home / "link"):
+        monkeypatch.setenv(name, str(place))
+        assert chosen() in (home / "home" / "runout-solver", home / "node" / f"runout-solver-{os.getuid()}")
+        assert not list(Path(place).glob("runout-solver*"))
 
 
 @pytest.mark.parametrize("mode", [0o770, 0o707, 0o777])
