@@ -4,14 +4,28 @@ import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+import xarray as xr
 
 from campaign import cli
 from campaign.commands import run
 from campaign.commands.scene_options import overrides
 
 PROGRAM = "import sys; from campaign.cli import main; sys.exit(main())"
+
+STAND_IN = f"""
+import sys
+sys.path.append({str(Path(__file__).parents[1] / "helpers")!r})
+from campaign.cli import main
+from campaign.commands import run
+from stand_in import prepare
+run.prepare = prepare
+run._write_report = lambda directory, simulate: directory / "report.html"
+sys.exit(main())
+"""
+"""The whole command, but for the solver and the figures."""
 
 
 @pytest.fixture(autouse=True)
@@ -137,6 +151,27 @@ def test_without_a_reader_a_campaign_goes_on_to_its_own_end():
         "from campaign.terminal import say, let_go; [say('a line') for _ in range(9)]; let_go(); raise SystemExit(75)"
     )
     assert without_reader(work) == (75, "")
+
+
+def on_a_terminal_of_ascii(program, *arguments):
+    """Do the same where the output is read but has no more than 128 characters."""
+    command = [sys.executable, "-c", program, *arguments]
+    environment = os.environ | {"PYTHONIOENCODING": "ascii"}
+    result = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert "Slope ? valley" in result.stdout
+    return result.returncode, result.stderr
+
+
+@pytest.mark.parametrize("carried_out", [on_a_terminal_of_ascii, without_reader])
+def test_whoever_reads_the_output_a_campaign_writes_its_results(carried_out, tmp_path):
+    """The summary holds "±", and the title an arrow."""
+    wanted = ["realizations=12", "minimum=10", "discretisation_pairs=0", "sensitivity_pairs=0"]
+    settings = ['title="Slope → valley"', *(f"campaign.{each}" for each in wanted)]
+    overrides = [part for setting in settings for part in ("--set", setting)]
+    assert carried_out(STAND_IN, "run", "ma2023", "--out", str(tmp_path), *overrides) == (0, "")
+    with xr.open_dataset(tmp_path / "results.nc") as data:
+        assert data.sizes["realization"] == 12
+        assert data.attrs["title"] == "Slope → valley"
 
 
 @pytest.mark.parametrize("moment", ["parser", "_carry_out"])

@@ -7,12 +7,21 @@ import sys
 
 import pytest
 from small_campaign import small_scene
+from stand_in import StandIn
 
 from campaign import cli
 from campaign.commands import run as run_command
 from campaign.commands.scene_options import read_scene, scene_directory
 from campaign.errors import CampaignError, RefusalError
+from campaign.exit_codes import ExitCode
+from campaign.results.results import read_results
 from campaign.running import launcher
+from campaign.running.campaign_directory import opened
+from campaign.running.crew import Alone
+from campaign.running.runner import conduct
+from campaign.running.standing import status
+from campaign.running.stop_request import StopRequest
+from campaign.scene import load_scene
 from campaign.storage import manifest
 
 
@@ -52,6 +61,28 @@ def test_another_scene_is_told_apart_in_the_units_of_people(begun):
 def test_a_scene_that_the_directory_cannot_have_meant_is_a_mistake_of_the_user(begun):
     with pytest.raises(CampaignError, match=r"^--set soil.cohesion.mean is 5, but a pressure needs its unit"):
         read_scene(options(begun[0], "--set", "soil.cohesion.mean=5"))
+
+
+def computed(directory, scene):
+    stop = StopRequest()
+    with opened(scene, directory, 1) as begun:
+        return conduct(begun, lambda scene, _home: StandIn(scene), Alone(stop), stop, None)
+
+
+def test_overrides_that_end_lines_are_found_again_by_whoever_reads_the_directory(tmp_path):
+    """They are kept a line each: by the manifest, and in the dataset, from which the report reads the scene."""
+    counts = ["campaign.realizations", "campaign.discretisation_pairs", "campaign.sensitivity_pairs"]
+    values = dict.fromkeys(["field.horizontal", "field.vertical", "slide.failed"], "2 m") | dict.fromkeys(counts, "3")
+    ends = ["\n", "\r\n", "\v", "\x1c", "\x85", "\u2028"]
+    overrides = [f"{key}={end}{value}{end}" for (key, value), end in zip(values.items(), ends, strict=True)]
+    scene = load_scene("ma2023", overrides)
+    assert scene.field.horizontal == scene.slide.failed == 2.0
+    assert computed(tmp_path, scene) is ExitCode.DONE
+    again = read_scene(options(tmp_path))
+    assert again == scene
+    assert computed(tmp_path, again) is ExitCode.DONE
+    assert read_results(tmp_path).scene.identity() == scene.identity()
+    assert "stopped at the maximum of 3 realizations" in status(tmp_path)
 
 
 def test_a_directory_is_continued_where_it_is(begun, monkeypatch):
