@@ -14,8 +14,6 @@ from campaign.fields.properties import marginals
 from campaign.scene import Scene
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.layers import interfaces_of, layer_at, layer_scenes, random_properties
-from campaign.simulation.field_summary import box_map
-from campaign.simulation.scene_sampler import reference_grid
 from campaign.statistics.intervals import Sample
 from campaign.statistics.ridge import Matrix, ridge
 
@@ -47,6 +45,10 @@ def deviations(field_maps: Matrix, scene: Scene) -> Matrix:
 
 def _distribution(scene: Scene) -> tuple[Matrix, Matrix]:
     """Return the mean of ln(property) in each box, and the standard deviation of a point in it."""
+    # With Numba, for which those who only read sentences about accuracy do not wait.
+    from campaign.simulation.field_summary import box_map
+    from campaign.simulation.scene_sampler import reference_grid
+
     laws = [marginals(layer) for layer in layer_scenes(scene)]
     rows = [row.name for row in random_properties(scene)]
     of_layers = np.array([[_moments(law.get(name)) for law in laws] for name in rows])
