@@ -1,6 +1,8 @@
 """The one place where Numba is configured.
 
-``kernel`` compiles what Python calls. ``sweep`` marks passes over all particles or nodes, which kernels put together.
+``kernel`` compiles what Python calls, and returns a number or nothing: to make an array or a tuple for Python, Numba
+runs Python's own code, in which a signal may raise, and crashes over that. So arrays are made before.
+``sweep`` marks passes over all particles or nodes, which kernels put together.
 ``inlined`` marks what they are made of, operations on a block of particles or on one point: it is always inlined, so
 that LLVM can vectorise a loop as a whole. What is only marked stays plain Python outside kernels.
 """
@@ -53,5 +55,5 @@ def chosen_by_type(function: Any) -> Any:
     return overload(function, jit_options=_INLINED, strict=False)  # type: ignore[arg-type]
 
 
-# For sums that are to be the same, bit for bit, on every processor: without fastmath they are never reordered.
+# A kernel for sums that are to be the same, bit for bit, on every processor: without fastmath they keep their order.
 exact = _compiled(cache=True, nogil=True)

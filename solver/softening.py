@@ -69,13 +69,17 @@ def remaining_share(plastic_strain, softening):
     return linear if softening.is_linear else exponential
 
 
-@kernel
 def remaining_shares(plastic_strain, softening):
     """Return the share that is left at each plastic strain, (n,)."""
     shares = np.empty_like(plastic_strain)
+    _fill_shares(shares, plastic_strain, softening)
+    return shares
+
+
+@kernel
+def _fill_shares(shares, plastic_strain, softening):
     for p in range(plastic_strain.size):
         shares[p] = remaining_share(plastic_strain[p], softening)
-    return shares
 
 
 @inlined

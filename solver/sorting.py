@@ -22,6 +22,7 @@ from solver.tiles import (
     PLASTIC_STRAIN,
     PORE_PRESSURE,
     PORE_PRESSURE_RATIO,
+    SORTS,
     STEPS,
     STRESS_XX,
     STRESS_XY,
@@ -34,6 +35,7 @@ from solver.tiles import (
     Tiles,
     X,
     Y,
+    after_sorts,
     empty_block,
     place_of,
     tiles_in_row,
@@ -42,7 +44,6 @@ from solver.tiles import (
 STEPS_BETWEEN_SORTS = 64
 
 
-@kernel
 def fill_tiles(particles, grid, room):
     """Return the particles (n,) in blocks, sorted by base cell; who is not on the grid is a leaver.
 
@@ -53,9 +54,14 @@ def fill_tiles(particles, grid, room):
     room : Tiles
         What ``allocate_tiles`` or an earlier call returned; its arrays become those of the tiles.
     """
-    first = np.full(grid.rows * tiles_in_row(grid), -1, np.int64)
-    tiles = Tiles(room.blocks, room.spare, room.following, first, room.tile, room.leavers, room.counts)
-    tiles.counts[LEAVERS] = tiles.counts[USED] = 0
+    tiles = room._replace(first=np.full(grid.rows * tiles_in_row(grid), -1, np.int64))
+    _fill_tiles(particles, grid, tiles)
+    return after_sorts(tiles)
+
+
+@kernel
+def _fill_tiles(particles, grid, tiles):
+    tiles.counts[LEAVERS] = tiles.counts[USED] = tiles.counts[SORTS] = 0
     for p in range(particles.x.size):
         fields = tiles.leavers[tiles.counts[LEAVERS]]
         for field in range(FIELDS):
@@ -74,7 +80,7 @@ def fill_tiles(particles, grid, room):
         fields[NUMBER] = p
         tiles.counts[LEAVERS] += 1
         settle_next(tiles, grid)
-    return sorted_tiles(tiles, grid)
+    sorted_tiles(tiles, grid)
 
 
 @sweep
@@ -103,6 +109,7 @@ def sorted_tiles(tiles, grid):
         is_last = block == used - 1 or tiles.tile[block + 1] != tiles.tile[block]
         tiles.following[block] = -1 if is_last else block + 1
     tiles.counts[USED], tiles.counts[STEPS] = used, 0
+    tiles.counts[SORTS] += 1
     return Tiles(tiles.spare, tiles.blocks, tiles.following, tiles.first, tiles.tile, tiles.leavers, tiles.counts)
 
 

@@ -36,7 +36,7 @@ from solver.pore_pressure import find_overburden, pore_pressure_of
 from solver.scheme import MUSL, USF, AnyScheme
 from solver.sorting import fill_tiles, read_tiles, sort_if_due
 from solver.spread import spread_all, spread_each
-from solver.tiles import LEAVERS, PORE_PRESSURE, Tiles, allocate_tiles, place_of, put, take
+from solver.tiles import LEAVERS, PORE_PRESSURE, SORTS, Tiles, after_sorts, allocate_tiles, place_of, put, take
 from solver.transfer import add_momentum, deposit_momentum, interpolate, no_momentum, weights_of
 from solver.water import GRAVITY
 
@@ -91,7 +91,6 @@ def accelerate(tiles, grid, work, scheme, gravity, dt):
     return True
 
 
-@kernel
 def take_steps(tiles, grid, work, laws, scheme, gravity, gravity_rate, dt, steps, are_new):
     """Take ``steps`` time steps; return the tiles, and how many were taken, as ``advance`` does.
 
@@ -106,6 +105,13 @@ def take_steps(tiles, grid, work, laws, scheme, gravity, gravity_rate, dt, steps
     are_new : bool
         The tiles have just been filled, and the grid does not know of the particles yet.
     """
+    taken = _take_steps(tiles, grid, work, laws, scheme, gravity, gravity_rate, dt, steps, are_new)
+    return after_sorts(tiles), taken
+
+
+@kernel
+def _take_steps(tiles, grid, work, laws, scheme, gravity, gravity_rate, dt, steps, are_new):
+    tiles.counts[SORTS] = 0
     grid.lake[GRAVITY] = gravity
     if are_new:
         spread_all(tiles, grid, scheme)
@@ -122,7 +128,7 @@ def take_steps(tiles, grid, work, laws, scheme, gravity, gravity_rate, dt, steps
             tiles, grid, work.ledger, laws, scheme, g, dt
         )
         taken += are_all_there
-    return tiles, taken
+    return taken
 
 
 def advance(

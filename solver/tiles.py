@@ -32,7 +32,7 @@ FIELDS = 25
 PLASTIC_INCREMENT = INCREMENT_XX  # of the plastic strain, until it is averaged: in the place of what is used up
 
 BLOCK = FIELDS * LANE_COUNT
-USED, LEAVERS, STEPS = 0, 1, 2  # entries of ``Tiles.counts``
+USED, LEAVERS, STEPS, SORTS = 0, 1, 2, 3  # entries of ``Tiles.counts``
 MIDDLE = 0.75  # of the place of an empty lane, in cells from its base node: it touches no third node
 
 
@@ -45,7 +45,7 @@ class Tiles(NamedTuple):
     first: np.ndarray  # (rows * tiles in a row,) the first block of a tile, -1 if it is empty
     tile: np.ndarray  # (capacity,) the tile of a block
     leavers: np.ndarray  # (n, FIELDS) particles that have left their base cells in this step
-    counts: np.ndarray  # (3,) blocks in use, leavers, steps since the blocks were sorted
+    counts: np.ndarray  # (4,) blocks in use, leavers, steps since the blocks were sorted, sorts of a kernel
 
 
 def allocate_tiles(n_particles: int) -> Tiles:
@@ -62,8 +62,13 @@ def allocate_tiles(n_particles: int) -> Tiles:
         first=np.empty(0, np.int64),
         tile=np.empty(capacity, np.int64),
         leavers=np.empty((n_particles, FIELDS)),
-        counts=np.zeros(3, np.int64),
+        counts=np.zeros(4, np.int64),
     )
+
+
+def after_sorts(tiles: Tiles) -> Tiles:
+    """Return the tiles as a kernel that was given these has left them: at each sort, blocks and spare change places."""
+    return tiles._replace(blocks=tiles.spare, spare=tiles.blocks) if tiles.counts[SORTS] % 2 else tiles
 
 
 @inlined

@@ -132,10 +132,15 @@ def sha256(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-@exact
 def multiply_lower(lower: NDArray[np.float64], vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Multiply each of the vectors (m, n) by a lower triangular matrix, column by column as it lies in memory."""
     product = np.zeros_like(vectors)
+    _add_product(product, lower, vectors)
+    return product
+
+
+@exact
+def _add_product(product: NDArray[np.float64], lower: NDArray[np.float64], vectors: NDArray[np.float64]) -> None:
     for j in range(lower.shape[0]):
         column = lower[j:, j]
         for f in range(vectors.shape[0]):
@@ -143,4 +148,3 @@ def multiply_lower(lower: NDArray[np.float64], vectors: NDArray[np.float64]) -> 
             target, z = product[f, j:], vectors[f, j]
             for i in range(column.size):
                 target[i] += column[i] * z
-    return product

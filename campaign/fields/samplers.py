@@ -180,13 +180,17 @@ def refuse_large(n_bytes: int, what: str) -> None:
         )
 
 
-@exact
 def multiply(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     """Multiply two matrices in the order of their inner index."""
     product = np.zeros((a.shape[0], b.shape[1]))
+    _add_product(product, a, b)
+    return product
+
+
+@exact
+def _add_product(product: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]) -> None:
     for i in range(a.shape[0]):
         for k in range(a.shape[1]):
             a_ik = a[i, k]
             for j in range(b.shape[1]):
                 product[i, j] += a_ik * b[k, j]
-    return product
