@@ -18,6 +18,7 @@ class Stream(IntEnum):
     FIELD = 0
     BOOTSTRAP = 1
     LAYER = 2
+    NOISE = 3
 
 
 def generator(campaign_seed: int, stream: Stream, realization: int, layer: int = 0) -> np.random.Generator:

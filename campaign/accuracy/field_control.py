@@ -1,10 +1,10 @@
 """The random field itself as the cheapest model: what it foretells of a run-out, whose mean is known exactly.
 
-The logarithms of the properties are Gaussian with known means, so the mean of any linear function of them is known
-without a single run. What ridge regression on a coarse map of the field foretells of the run-out is taken off each
-realization, and its known mean is put in its place. The realizations are fit by those of the other folds only: then no
-value has shaped what it is compared with, and the mean stays unbiased (cross-fitting; Wager et al. 2016, PNAS 113,
-12673-12678).
+The logarithms of the properties are Gaussian with known means, given the data of borings, so the mean of any linear
+function of them is known without a single run. What ridge regression on a coarse map of the field foretells of the
+run-out is taken off each realization, and its known mean is put in its place. The realizations are fit by those of the
+other folds only: then no value has shaped what it is compared with, and the mean stays unbiased (cross-fitting; Wager
+et al. 2016, PNAS 113, 12673-12678).
 """
 
 import numpy as np
@@ -44,21 +44,25 @@ def deviations(field_maps: Matrix, scene: Scene) -> Matrix:
 
 
 def _distribution(scene: Scene) -> tuple[Matrix, Matrix]:
-    """Return the mean of ln(property) in each box, and the standard deviation of a point in it."""
+    """Return the mean of ln(property) in each box, and the standard deviation of a point in it without data."""
     # With Numba, for which those who only read sentences about accuracy do not wait.
     from campaign.simulation.field_summary import box_map
-    from campaign.simulation.scene_sampler import reference_grid
+    from campaign.simulation.scene_sampler import gaussian_means, reference_grid
 
     laws = [marginals(layer) for layer in layer_scenes(scene)]
     rows = [row.name for row in random_properties(scene)]
     of_layers = np.array([[_moments(law.get(name)) for law in laws] for name in rows])
-    if not scene.layer:
+    if not scene.layer and not scene.boring:
         mean, sigma = of_layers[:, 0].T[:, :, None, None]
         return mean, sigma
     surface = surface_of(scene.geometry)
     grid = reference_grid(scene, surface.width, surface.top)
     boxes, layer = box_map(surface, grid), layer_at(interfaces_of(scene), *np.meshgrid(grid.x, grid.y))
-    return boxes.averages(of_layers[:, layer, 0]), boxes.averages(of_layers[:, layer, 1])
+    mean, sigma = of_layers[:, layer, 0], of_layers[:, layer, 1]
+    for number, known in gaussian_means(scene, grid).items():
+        for row, name in enumerate(rows):
+            mean[row] += np.where(layer == number, sigma[row] * known.get(name, 0.0), 0.0)
+    return boxes.averages(mean), boxes.averages(sigma)
 
 
 def _moments(law: Lognormal | None) -> tuple[float, float]:

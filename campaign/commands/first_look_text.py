@@ -1,6 +1,7 @@
 """The first look at a scene as text."""
 
 from campaign.scene import Scene
+from campaign.scene.boring_data import boring_words
 from campaign.scene.cost import (
     core_seconds,
     dataset_bytes,
@@ -36,6 +37,7 @@ def first_look_text(scene: Scene, look: FirstLook, size: FieldSize) -> str:
         "toe": _toe(scene, look),
         "strength": trend_words(scene),
         "water": water_words(scene),
+        "borings": boring_words(scene),
         "factor of safety": _factors(look),
         "softening": _softenings(scene),
         "what to expect": outlook(look, is_brittle(scene, look.height), is_progressive(scene, look.height)),

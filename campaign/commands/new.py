@@ -62,6 +62,13 @@ LAYERS_AND_RECEPTORS = """
 #     table = [["0 m", "15 m"], ["20 m", "12 m"], ["35 m", "4 m"], ["75 m", "4 m"]]   # x and elevation, wall to wall
 #     level = "6 m"             # of water that stands over the toe; left out, there is none
 
+# Values measured in borings, at depths below the surface; fields go through them.
+#
+#     [[boring]]
+#     name = "B1"
+#     x = "28 m"
+#     cohesion = [["1 m", "18 kPa"], ["3 m", "25 kPa"]]
+
 # Places asked about, such as a road or the walls of a house: whether the slide reaches them, and what arrives.
 #
 #     [[receptor]]

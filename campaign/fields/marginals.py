@@ -25,6 +25,10 @@ class Lognormal:
         """Mean of ln X."""
         return log(self.mean) - self.sigma**2 / 2
 
+    def mean_given(self, gaussian: Array, variance: Array) -> Array:
+        """Return the mean where the Gaussian field has this mean and variance; that of the distribution for 0 and 1."""
+        return np.asarray(self.mean * np.exp(self.sigma * gaussian - 0.5 * self.sigma**2 * (1.0 - variance)))
+
     @property
     def steepness(self) -> float:
         """Ratio sigma / COV, which is 1 without variation."""

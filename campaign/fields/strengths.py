@@ -6,13 +6,14 @@ Rezania and Mousavi Nezhad. Which properties there are says `campaign.fields.pro
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from campaign.errors import SamplerError
+from campaign.fields.conditioning import Conditioning
 from campaign.fields.correlation import Array
 from campaign.fields.cross_correlation import correlated
 from campaign.fields.marginals import Lognormal
@@ -146,8 +147,19 @@ class LayerSoil(NamedTuple):
     trends: Mapping[str, Trend] = {}
 
     def is_random(self, name: str) -> bool:
-        """Whether a property varies in it."""
+        """Whether a property varies in it at random."""
         return name in self.marginals and self.marginals[name].cov > 0.0
+
+    @property
+    def places(self) -> list[int]:
+        """Numbers of the independent fields that its properties have."""
+        return [place for place, row in enumerate(PROPERTIES) if row.name in self.marginals]
+
+    def weights(self, name: str) -> Array:
+        """Return what a property has of each independent field; one for each row of the table of properties."""
+        weights = np.zeros(len(PROPERTIES))
+        weights[self.places] = self.factor[[*self.marginals].index(name)]
+        return weights
 
 
 @dataclass(frozen=True)
@@ -166,6 +178,8 @@ class StrengthSampler:
         From the surface down.
     layer : ndarray of shape (ny, nx), optional
         Number of the layer in which the centre of each cell lies; None for a single one.
+    data : mapping
+        What is known of the independent fields, by the number of the layer that has its own.
     """
 
     grid: ReferenceGrid
@@ -173,6 +187,7 @@ class StrengthSampler:
     gaussian: Sampler
     layers: tuple[LayerSoil, ...]
     layer: NDArray[np.intp] | None = None
+    data: Mapping[int, Conditioning] = field(default_factory=dict)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -184,7 +199,7 @@ class StrengthSampler:
         )
 
     def draw(self, seed: int, realization: int) -> Strengths:
-        """Draw the properties of one realization, or their means everywhere for `BASELINE`.
+        """Draw the properties of one realization, or their means everywhere, given the data, for `BASELINE`.
 
         Raises
         ------
@@ -192,7 +207,10 @@ class StrengthSampler:
             If a value reaches the limit of its property.
         """
         random = np.array([[layer.is_random(name) for name in self.names] for layer in self.layers])
-        fields = self._independent(seed, realization) if realization != BASELINE and random.any() else {}
+        if realization == BASELINE:
+            fields = {number: known.means for number, known in self.data.items()}
+        else:
+            fields = self._independent(seed, realization) if random.any() else {}
         by_layer = [self._of_layer(number, fields, realization) for number in range(len(self.layers))]
         trends, is_random = tuple(layer.trends for layer in self.layers), None if random.all() else random
         if self.layer is None:
@@ -207,27 +225,35 @@ class StrengthSampler:
     def _independent(self, seed: int, realization: int) -> dict[int, Array]:
         """Draw the independent Gaussian fields of all properties, by the number of the layer that has its own."""
         # Each property has a Gaussian field of its own, whichever others are random.
-        drawn = {name for layer in self.layers for name in layer.marginals}
-        count = 1 + max(place for place, row in enumerate(PROPERTIES) if row.name in drawn)
-        return {
-            field: self.gaussian.draw(
-                generator(seed, Stream.LAYER if field else Stream.FIELD, realization, field), count
+        used = {name for layer in self.layers for name in layer.marginals}
+        count = 1 + max(place for place, row in enumerate(PROPERTIES) if row.name in used)
+        drawn = {
+            number: self.gaussian.draw(
+                generator(seed, Stream.LAYER if number else Stream.FIELD, realization, number), count
             )
-            for field in sorted({layer.field for layer in self.layers})
+            for number in sorted({layer.field for layer in self.layers})
+        }
+        return drawn | {
+            number: known.conditioned(drawn[number], generator(seed, Stream.NOISE, realization, number))
+            for number, known in self.data.items()
         }
 
     def _of_layer(self, number: int, fields: Mapping[int, Array], realization: int) -> Array:
         """Return the properties in the soil of a layer, (n, ny, nx)."""
         layer = self.layers[number]
         independent = fields.get(layer.field)
-        own = [place for place, row in enumerate(PROPERTIES) if row.name in layer.marginals]
         values = np.full((len(self.names), *self.grid.shape), np.nan)
-        mixed = [] if independent is None else correlated(layer.factor, independent[own])
+        mixed = [] if independent is None else correlated(layer.factor, independent[layer.places])
         drawn = dict(zip(layer.marginals, mixed, strict=False))
         for name, value in zip(self.names, values, strict=True):
             law = layer.marginals.get(name)
             mean = layer.means[name] if law is None else law.mean
-            value[self.cells] = np.ravel(np.asarray(mean) if law is None or name not in drawn else law(drawn[name]))
+            if law is None or name not in drawn:
+                value[self.cells] = mean
+            elif realization == BASELINE:
+                value[self.cells] = law.mean_given(drawn[name], self.data[layer.field].variance(layer.weights(name)))
+            else:
+                value[self.cells] = np.ravel(law(drawn[name]))
             if name in drawn:
                 is_read = self.cells if layer.cells is None else self.cells & layer.cells
                 trend = layer.trends.get(name)

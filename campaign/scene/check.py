@@ -69,7 +69,7 @@ def _geometry_choice(document: Document) -> list[str]:
 
 
 def _repeated_names(document: Document) -> list[str]:
-    return [message for array in ("receptor", "layer") for message in _repeated_names_in(array, document)]
+    return [message for array in ("receptor", "layer", "boring") for message in _repeated_names_in(array, document)]
 
 
 def _repeated_names_in(array: str, document: Document) -> list[str]:

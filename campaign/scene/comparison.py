@@ -41,7 +41,7 @@ def kind_of(key: str) -> Kind | None:
 def _kinds(annotation: Any, metadata: Any = ()) -> Iterator[Kind]:
     for validator in metadata:
         if isinstance(validator, BeforeValidator) and isinstance(validator.func, partial):
-            yield validator.func.keywords["kind"]
+            yield from filter(None, [validator.func.keywords.get("kind")])
     if get_origin(annotation) is Annotated:
         metadata = annotation.__metadata__
         yield from _kinds(annotation.__origin__, metadata)

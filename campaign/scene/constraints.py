@@ -3,14 +3,16 @@
 from collections.abc import Callable, Iterable
 from functools import partial
 from itertools import pairwise
-from math import isfinite, radians
+from math import inf, isfinite, radians
 from typing import Annotated, Any, NamedTuple
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
 from campaign.scene.units import (
+    ANGLE,
     LENGTH,
     NUMBER,
+    PRESSURE,
     Angle,
     AngleGradient,
     Area,
@@ -137,6 +139,18 @@ def _top(written: Any, kind: Kind) -> tuple[tuple[float, float], ...]:
     return points
 
 
+def _soundings(written: Any, of: Kind, limit: float = inf) -> tuple[tuple[float, float], ...]:
+    """Read values of a property at places, pairs of a length [m] and a value of a kind below a limit."""
+    if not isinstance(written, list) or not all(isinstance(pair, list) and len(pair) == 2 for pair in written):
+        example = f'[["1 m", "{of.example}"], ["3 m", "{of.example}"]]'
+        raise ValueError(f"it must be pairs of a depth or an elevation and a value, for instance {example}")
+    pairs = tuple((si_value(place, LENGTH), si_value(value, of)) for place, value in written)
+    if any(not isfinite(place) or not 0.0 < value < limit for place, value in pairs):
+        most = "" if limit == inf else " and below 90 deg"
+        raise ValueError(f"each value must be above 0{most}; leave out what was not found")
+    return pairs
+
+
 POSITIVE = must("be greater than zero", lambda value: value > 0.0)
 NOT_NEGATIVE = must("not be negative", lambda value: value >= 0.0)
 
@@ -189,4 +203,7 @@ Profile = Annotated[
 Name = Annotated[str, must("be a line of text", lambda text: bool(text.strip()) and text.isprintable())]
 Stretch = Annotated[tuple[float, float], BeforeValidator(partial(_stretch, kind=LENGTH))]
 ToleranceText = Annotated[str, BeforeValidator(_tolerable)]
+Pairs = tuple[tuple[float, float], ...]
+Pressures = Annotated[Pairs, BeforeValidator(partial(_soundings, of=PRESSURE))]
+Angles = Annotated[Pairs, BeforeValidator(partial(_soundings, of=ANGLE, limit=radians(90.0)))]
 Top = Annotated[tuple[tuple[float, float], ...], BeforeValidator(partial(_top, kind=LENGTH))]

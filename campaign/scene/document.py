@@ -22,7 +22,11 @@ ARRAY_HEADER = re.compile(r"""\s*\[\[\s*([\w.\-\s]+?)\s*\]\]\s*(?:#.*)?""")
 ASSIGNMENT = re.compile(r"""\s*([\w.\-"']+(?:\s*\.\s*[\w\-"']+)*)\s*=""")
 BARE_QUANTITY = re.compile(r"=\s*[+-]?[\d.]+(?:[eE][+-]?\d+)?\s*[A-Za-z°%]")
 
-ARRAYS = {"receptor": """receptor=[{name="road", x="42 m"}]""", "layer": """layer=[{name="clay", top="5 m"}]"""}
+ARRAYS = {
+    "receptor": """receptor=[{name="road", x="42 m"}]""",
+    "layer": """layer=[{name="clay", top="5 m"}]""",
+    "boring": """boring=[{name="B1", x="30 m", cohesion=[["2 m", "20 kPa"]]}]""",
+}
 """Arrays of tables that a scene may have, with an override that sets the whole."""
 
 DEEPEST = 8

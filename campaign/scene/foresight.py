@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from math import ceil
 
 from campaign.scene import Scene
+from campaign.scene.boring_data import unlikely_data
 from campaign.scene.complaints import Complaint, found
 from campaign.scene.cost import core_seconds, output_count, particle_count, realization_seconds, step_count, time_step
 from campaign.scene.first_look import LONGEST_SLIDE, TYPICAL_SLIDE, FirstLook, critical_circles
@@ -74,6 +75,7 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
             short_timeout(scene),
             few_pairs(scene),
             nothing_random(scene),
+            *(Complaint(*each) for each in unlikely_data(scene)),
             large_campaign(scene),
             *(unusual_soil(scene, *row) for row in SOILS),
             *_unusual_layers(scene),

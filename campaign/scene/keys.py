@@ -24,12 +24,15 @@ DEPENDS = {
     "soil.cohesion.residual_cov": "0",
     "soil.friction_angle.residual_cov": "0",
     **{row.gradient_key: "0" for row in PROPERTIES},
+    "boring.noise": "0",
 }
 """What holds in place of keys that are None by default."""
 
 TAKES = {
     "geometry.surface": "points of x and elevation",
     "receptor.x": "a place, or both ends of a range",
+    **{f"boring.{row.name}": "pairs of depth or elevation and value" for row in PROPERTIES},
+    "boring.noise": "a number",
     "layer.top": "an elevation, or points of x and elevation",
     "water.table": "an elevation, or points of x and elevation",
     "water.r_u": "a number",
@@ -92,7 +95,7 @@ def _choices(annotation: Any) -> tuple[Any, ...]:
 def _left_out(name: str, field: FieldInfo) -> str:
     if field.is_required():
         return REQUIRED
-    if field.default is None:
+    if field.default is None or field.default == ():
         return DEPENDS.get(name, "none")
     kind = kind_of(name)
     return shown_in_unit(field.default, kind) if kind is not None and kind.si_unit else f"{field.default}"

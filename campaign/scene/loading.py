@@ -4,10 +4,12 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from campaign.errors import RefusalError, SceneError
+from campaign.scene.boring_data import impossible_data
 from campaign.scene.check import mistakes
-from campaign.scene.document import Document, document_of, read_document
+from campaign.scene.document import Document, document_of, location_of, read_document
 from campaign.scene.scene import Scene
 from campaign.scene.sections import SceneFile
+from campaign.scene.wording import wrong_value
 
 EXAMPLE = "ma2023"
 
@@ -61,4 +63,7 @@ def _validated(document: Document) -> Scene:
     if messages := mistakes(document, SceneFile, read_document(EXAMPLE)):
         raise SceneError(messages)
     origin = {"name": document.name, "text": document.text, "overrides": document.overrides}
-    return Scene.model_validate(document.tables | origin)
+    scene = Scene.model_validate(document.tables | origin)
+    if impossible := [wrong_value(location_of(key), text, document) for key, text in impossible_data(scene)]:
+        raise SceneError(impossible)
+    return scene

@@ -15,7 +15,7 @@ def behind_crest(scene: Scene) -> str:
     surface = surface_of(scene.geometry)
     added = rounded_up(max(surface.height, scene.numerics.cell))
     if scene.geometry.slope is not None:
-        moved = f"; add {added} m to the x of each receptor" if scene.receptor else ""
+        moved = "".join(f"; add {added} m to the x of each {each}" for each in _placed(scene))
         toe_x = surface.toe_x
         return (
             f"lengthen geometry.slope.crest, for instance by {added} m, which moves the toe from x = {toe_x:.4g} m to "
@@ -24,12 +24,16 @@ def behind_crest(scene: Scene) -> str:
     shifted = {
         "in the x of all others": True,
         "in geometry.toe": scene.geometry.toe is not None,
-        "in the x of each receptor": bool(scene.receptor),
-    }
+    } | {f"in the x of each {each}": True for each in _placed(scene)}
     return (
         f"add ground on the left of geometry.surface, for instance {added} m of it: another point at x = 0 m, and "
         f"{added} m more {listing([place for place, is_there in shifted.items() if is_there])}"
     )
+
+
+def _placed(scene: Scene) -> list[str]:
+    """Return what else has places in a scene."""
+    return [name for name, there in {"receptor": scene.receptor, "boring": scene.boring}.items() if there]
 
 
 def ahead(scene: Scene) -> str:

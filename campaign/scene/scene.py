@@ -43,7 +43,7 @@ class Scene(SceneFile):
 
     def identity(self) -> dict[str, Any]:
         """Return, by dotted key, every SI value that decides what realization k is; ready for JSON."""
-        told = {"geometry", "soil", "water", "field", "numerics", "slide", "receptor"}
+        told = {"geometry", "soil", "water", "field", "numerics", "slide", "receptor", "boring"}
         sections = self.model_dump(mode="json", include=told, exclude=NOT_IDENTITY) | {"layer": written_out(self)}
         values = flatten(sections) | {"campaign.seed": self.campaign.seed, "slide.front_area": self.front_area}
         return {key: value for key, value in values.items() if value is not None and value != ADDED_LATER.get(key)}

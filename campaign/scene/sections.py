@@ -12,6 +12,7 @@ from campaign.scene.constraints import (
     POSITIVE,
     AcuteAngle,
     AngleGrowth,
+    Angles,
     Count,
     Cov,
     Fraction,
@@ -26,6 +27,7 @@ from campaign.scene.constraints import (
     PositivePressure,
     PositiveTime,
     PressureGrowth,
+    Pressures,
     Profile,
     RightAngle,
     Seed,
@@ -37,7 +39,7 @@ from campaign.scene.constraints import (
     must,
     one_of,
 )
-from campaign.scene.units import Angle, Pressure, UnitWeight
+from campaign.scene.units import Angle, Length, Pressure, UnitWeight
 from solver.method import Basis, Filling, Locking, StressUpdate
 
 
@@ -127,7 +129,8 @@ def _partly(section: type[Section], without: str = "", **inner: type[Section]) -
     for name, field in section.model_fields.items():
         if name != without:
             own: Any = Annotated[(field.annotation, *field.metadata)] if field.metadata else field.annotation
-            fields[name] = (inner.get(name, own) | None, None)
+            given = inner.get(name, own)
+            fields[name] = (given if field.is_required() else given | None, None)
     doc = f"What is other than in [soil]. {section.__doc__}"
     return create_model(f"Partly{section.__name__}", __base__=Section, __module__=__name__, __doc__=doc, **fields)
 
@@ -253,6 +256,22 @@ class Receptor(Section):
         return f"x = {near:g} m" if near == far else f"x = {near:g} to {far:g} m"
 
 
+class Boring(Section):
+    """A boring or sounding at `x` in m: values of properties in SI, each with its depth or its elevation in m.
+
+    `noise` is the coefficient of variation of what was measured.
+    """
+
+    name: Annotated[Name, Field(examples=["B1"])]
+    x: Annotated[Length, Field(examples=["30 m"])]
+    by: Literal["depth", "elevation"] = "depth"
+    noise: OptionalCov = None
+    cohesion: Pressures = ()
+    friction_angle: Angles = ()
+    cohesion_residual: Pressures = ()
+    friction_angle_residual: Angles = ()
+
+
 class Campaign(Section):
     """How many realizations, from which seed, and when they are enough.
 
@@ -294,4 +313,5 @@ class SceneFile(Section):
     numerics: Numerics
     slide: Slide = Slide()
     receptor: Annotated[tuple[Receptor, ...], Field(strict=False), listed("receptor", "place")] = ()
+    boring: Annotated[tuple[Boring, ...], Field(strict=False), listed("boring", "boring")] = ()
     campaign: Campaign

@@ -13,6 +13,7 @@ import numpy as np
 from campaign.fields.properties import BY_NAME, value_of
 from campaign.running.study import Changes
 from campaign.scene import Scene
+from campaign.scene.boring_data import measured_in
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.ground_water import water_of
 from campaign.scene.layers import layer_scenes
@@ -69,17 +70,27 @@ def choices_of(scene: Scene) -> list[Choice]:
 
 def _soil(scene: Scene) -> Iterator[Choice]:
     layers = layer_scenes(scene)
+    measured = {datum.name for datum in measured_in(scene)}
+    why_not = "left out: borings have values of it" if scene.boring else ""
     if scene.layer:
-        yield Choice("layers", "the soil of the surface", ("layer=[]",))
+        of_layers = "left out: borings have values in them" if scene.boring else ""
+        yield Choice("layers", "the soil of the surface", ("layer=[]",), why_not=of_layers)
+    if scene.boring:
+        yield Choice("borings", "none", ("boring=[]",), redraws=True)
     if water_of(scene) != NO_WATER:
         yield Choice("water", "none", ("water={}",))
     for row in (BY_NAME[name] for name in PEAKS):
         if any(value_of(layer, row.cov_key) for layer in layers):
-            yield Choice(f"random {row.long_name}", "its mean", _everywhere(scene, row.cov_key, "0"))
+            changes = _everywhere(scene, row.cov_key, "0")
+            yield Choice(
+                f"random {row.long_name}", "its mean", changes, why_not=why_not if row.name in measured else ""
+            )
     drawn = [name for name in RESIDUALS if any(value_of(layer, BY_NAME[name].cov_key) for layer in layers)]
     if drawn:
         fixed = [change for name in drawn for change in _everywhere(scene, BY_NAME[name].cov_key, "0")]
-        yield Choice("random residual strength", "its mean", (*fixed, *_pairs_without(scene, drawn)))
+        changes = (*fixed, *_pairs_without(scene, drawn))
+        reason = why_not if measured & {*drawn} else ""
+        yield Choice("random residual strength", "its mean", changes, why_not=reason)
     if any(soil.softening.law != "none" for soil in scene.soils):
         yield Choice("softening", "none", _everywhere(scene, "soil.softening.law", "none"))
     if any(soil.dilation_angle > 0.0 for soil in scene.soils):
@@ -130,7 +141,8 @@ def _ground(scene: Scene) -> Iterator[Choice]:
         return
     # Receptors are given by their x, which a shorter crest would move with the toe.
     why_not = "left out: it would move the receptors" if scene.receptor else ""
-    for part, reason in (("foundation", ""), ("crest", why_not), ("plain", "")):
+    bored = "left out: borings may lie in it" if scene.boring else ""
+    for part, reason in (("foundation", bored), ("crest", why_not or bored), ("plain", bored)):
         length = getattr(slope, part)
         half = _metres(length / 2)
         changes = (f"geometry.slope.{part}={half}",)
@@ -139,17 +151,17 @@ def _ground(scene: Scene) -> Iterator[Choice]:
 
 def _profile(scene: Scene) -> Iterator[Choice]:
     """Yield the same of a ground that is given by points, but for its crest, from which all x are measured."""
-    surface = surface_of(scene.geometry)
+    surface, bored = surface_of(scene.geometry), "left out: borings may lie in it" if scene.boring else ""
     toe_x, depth = surface.toe_x, float(surface.y.min())
     if depth:
         lower = (_points(surface.x, surface.y - depth / 2),)
-        yield Choice(f"foundation of {_metres(depth)}", _metres(depth / 2), lower, redraws=True)
+        yield Choice(f"foundation of {_metres(depth)}", _metres(depth / 2), lower, redraws=True, why_not=bored)
     half = (surface.width - toe_x) / 2
     inside = surface.x < toe_x + half
     x = np.append(surface.x[inside], toe_x + half)
     y = np.append(surface.y[inside], surface.height_at(x[-1:]))
     shorter = (_points(x, y), f"geometry.toe={_metres(toe_x)}")
-    yield Choice(f"plain of {_metres(2 * half)}", _metres(half), shorter, redraws=True)
+    yield Choice(f"plain of {_metres(2 * half)}", _metres(half), shorter, redraws=True, why_not=bored)
 
 
 def _points(x: Iterable[float], y: Iterable[float]) -> str:

@@ -7,12 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from campaign.fields.cholesky import CholeskySampler
+from campaign.fields.conditioning import Conditioning, Datum, merged
 from campaign.fields.correlation import Array, Correlation, autocorrelation_distance
 from campaign.fields.cross_correlation import gaussian_matrix, lower_factor
+from campaign.fields.marginals import Lognormal
 from campaign.fields.properties import PROPERTIES, distributions
 from campaign.fields.reference_grid import Mask, ReferenceGrid
 from campaign.fields.samplers import CirculantSampler, KroneckerSampler, Sampler
 from campaign.fields.strengths import LayerSoil, StrengthSampler
+from campaign.scene.boring_data import Measured, measured_in, standard_value
 from campaign.scene.layers import interfaces_of, layer_at, layer_scenes, tops_of
 from campaign.scene.scene import Scene
 from campaign.scene.sections import RandomField
@@ -48,17 +51,64 @@ def strength_sampler(
     """
     field, correlation, grid = scene.field, correlation_of(scene.field), reference_grid(scene, width, height)
     method = AUTOMATIC if field.sampler == "auto" else field.sampler
-    cells = grid.cells_with(soil if method == "cholesky" else None)
-    gaussian = gaussian_sampler(method, correlation, grid, cells, directory)
-    tops = tops_of(scene)
-    if not scene.layer:
-        return StrengthSampler(grid, cells, gaussian, (soil_of_layer(scene, tops[0]),))
-    interfaces, soils = interfaces_of(scene), []
+    cells, soils = grid.cells_with(soil if method == "cholesky" else None), soils_of_layers(scene, grid)
+    for datum in measured_in(scene):
+        cells[_cell(grid, datum)] = True
+    gaussian, data = gaussian_sampler(method, correlation, grid, cells, directory), data_of(scene, grid, cells)
+    layer = layer_at(interfaces_of(scene), *np.meshgrid(grid.x, grid.y)) if scene.layer else None
+    return StrengthSampler(grid, cells, gaussian, soils, layer, data)
+
+
+def soils_of_layers(scene: Scene, grid: ReferenceGrid) -> tuple[LayerSoil, ...]:
+    """Return what the soil of each layer makes of Gaussian fields, from the surface down."""
+    tops, interfaces, soils = tops_of(scene), interfaces_of(scene), []
     for number, (layer, top) in enumerate(zip(layer_scenes(scene), tops, strict=True)):
         has_own = number > 0 and scene.layer[number - 1].field == "own"
         own = soil_of_layer(layer, top, number if has_own else 0)
-        soils.append(own._replace(cells=grid.cells_with(partial(_is_in, interfaces, number))))
-    return StrengthSampler(grid, cells, gaussian, tuple(soils), layer_at(interfaces, *np.meshgrid(grid.x, grid.y)))
+        cells = grid.cells_with(partial(_is_in, interfaces, number)) if scene.layer else None
+        soils.append(own._replace(cells=cells))
+    return tuple(soils)
+
+
+def data_of(scene: Scene, grid: ReferenceGrid, cells: NDArray[np.bool_]) -> dict[int, Conditioning]:
+    """Return what borings tell of the independent fields, by the number of the layer that has its own.
+
+    Raises
+    ------
+    SamplerError
+        If some data follow from the others.
+    """
+    soils, found = soils_of_layers(scene, grid), dict[int, list[Datum]]()
+    for measured in measured_in(scene):
+        soil, name = soils[measured.layer], measured.name
+        law = soil.marginals[name]
+        error_variance = (Lognormal(1.0, measured.noise).sigma / law.sigma) ** 2
+        value = standard_value(scene, measured, law)
+        datum = Datum(_cell(grid, measured), soil.weights(name), value, error_variance)
+        found.setdefault(soil.field, []).append(datum)
+    correlation = correlation_of(scene.field)
+    return {number: Conditioning(merged(data), correlation, grid, cells) for number, data in found.items()}
+
+
+def gaussian_means(scene: Scene, grid: ReferenceGrid) -> dict[int, dict[str, Array]]:
+    """Return what borings make of the means of the standard Gaussian fields of the properties of each layer.
+
+    Returns
+    -------
+    dict
+        By number of the layer, of those with a field that has data, and by name; each of shape (ny, nx).
+    """
+    data = data_of(scene, grid, np.ones(grid.shape, dtype=bool))
+    return {
+        number: {name: (soil.weights(name) @ data[soil.field].means).reshape(grid.shape) for name in soil.marginals}
+        for number, soil in enumerate(soils_of_layers(scene, grid))
+        if soil.field in data
+    }
+
+
+def _cell(grid: ReferenceGrid, datum: Measured) -> tuple[int, int]:
+    row, column = grid.index(np.array([datum.x]), np.array([datum.y]))
+    return int(row[0]), int(column[0])
 
 
 def reference_grid(scene: Scene, width: float, height: float) -> ReferenceGrid:

@@ -31,7 +31,7 @@ def doubts(values: Sample) -> list[str]:
     if len(runouts) < 2:
         return []
     if np.ptp(runouts) == 0:
-        return [f"All {len(runouts)} run-outs are equal: the random strengths do not reach the run-out."]
+        return [f"All {len(runouts)} run-outs are equal: what is random, if anything is, does not reach the run-out."]
     return heavy_tail(runouts) + heavy_realization(values)
 
 

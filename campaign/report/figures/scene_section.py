@@ -1,5 +1,6 @@
 """A scene before it is run: its section with toe, mesh and critical circle, and the field of a realization."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from textwrap import fill
@@ -16,7 +17,9 @@ from campaign.report.figures.labels import Label, highest, place_labels, write_l
 from campaign.report.figures.section import SKY, Section, drawn_layers
 from campaign.report.figures.style import BLACK, BLUE, GREY, ORANGE, WIDTH, Illustration, in_style, letter, new_figure
 from campaign.scene import Scene
+from campaign.scene.boring_data import measured_in
 from campaign.scene.first_look import FirstLook, look_at
+from campaign.scene.ground_surface import surface_of
 from campaign.scene.ground_water import water_of
 from campaign.scene.layers import interfaces_of
 from campaign.scene.limit_equilibrium import SlipCircle
@@ -73,10 +76,12 @@ def scene_section(scene: Scene, look: FirstLook, strengths: Strengths, realizati
     height = (1 + len(fields)) * (SHARE * WIDTH * section.panel_height + OVERHEAD)
     figure, panels = new_figure(min(height, TALLEST), 1 + len(fields), sharex=True)
     _ground(panels[0], section, scene.numerics.cell)
+    _borings(panels[0], scene, tuple(BY_NAME))
     _circles(panels[0], look)
     write_labels(panels[0], placed, scale)
     for axes, row in zip(panels[1:], fields, strict=True):
         _field(axes, section, strengths, row)
+        _borings(axes, scene, (row.name,))
     panels[-1].set_xlabel("x (m)")
     letter(panels, [fill(scene.title, TITLE), *(f"{row.long_name} of realization {realization}" for row in fields)])
     caption = f"{scene.title}: the ground with its toe, and the strength of realization {realization}."
@@ -101,6 +106,18 @@ def _ground(axes: Axes, section: Section, cell: float) -> None:
     for wall, top in ((0.0, surface.y[0]), (surface.width, surface.y[-1])):
         axes.plot([wall, wall], [0.0, top], color=BLACK, linewidth=2.5, clip_on=False)
     axes.plot([0.0, surface.width], [0.0, 0.0], color=BLACK, linewidth=2.5, clip_on=False)
+
+
+def _borings(axes: Axes, scene: Scene, names: Sequence[str]) -> None:
+    """Draw the borings that have data of some properties, from the surface to the deepest of these, and the data."""
+    ground = surface_of(scene.geometry)
+    for number, boring in enumerate(scene.boring):
+        own = [each.y for each in measured_in(scene) if each.key.startswith(f"boring.{number}.") and each.name in names]
+        if own:
+            top = float(ground.height_at(np.array([boring.x]))[0])
+            axes.plot([boring.x, boring.x], [min(own), top], color=BLACK, linewidth=1.2)
+            axes.plot([boring.x] * len(own), own, "o", color=BLACK, markerfacecolor="white", markersize=4)
+            axes.annotate(boring.name, (boring.x, top), (0, 2), textcoords="offset points", ha="center", va="bottom")
 
 
 def _circles(axes: Axes, look: FirstLook) -> None:

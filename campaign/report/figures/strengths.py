@@ -6,7 +6,7 @@ from campaign.fields.properties import BY_NAME
 from campaign.report.figures.particles import Scale, draw_lattice, draw_still
 from campaign.report.figures.section import Section
 from campaign.report.figures.stack import colour_bar, stack
-from campaign.report.figures.style import Illustration, letter
+from campaign.report.figures.style import Illustration, letter, need
 from campaign.report.snapshots import ReplayedSlide
 from campaign.simulation.ground import Ground
 from campaign.terminal import listing
@@ -15,6 +15,7 @@ from campaign.terminal import listing
 def strengths(section: Section, ground: Ground, slide: ReplayedSlide) -> Illustration:
     """Draw the random soil properties where the particles were at first (figure 4 of the paper)."""
     drawn, lattice, k = ground.random_properties, ground.lattice, slide.realization
+    need(drawn, "Nothing is random.")
     shown = lattice.x < section.right
     figure, panels = stack(section, len(drawn), colour_bars=len(drawn))
     for panel, row in zip(panels, drawn, strict=True):

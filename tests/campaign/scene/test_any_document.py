@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from scene_complaints import EXAMPLE, found_in
 
 from campaign.scene import Scene
+from campaign.scene.boring_data import impossible_data
 from campaign.scene.cost import (
     core_seconds,
     dataset_bytes,
@@ -37,10 +38,28 @@ JUNK = st.one_of(
     st.lists(st.sampled_from([[], ["0 m", "1 m"], ["1 m"], 3, "a"]), max_size=3),
     st.dictionaries(st.sampled_from(["mean", "height", "cell", "x"]), st.integers(), max_size=2),
 )
+
+
+def _inner(table: Any, name: str | int) -> Any:
+    if isinstance(table, dict):
+        return table.get(name, {})
+    return table[name] if isinstance(table, list) and isinstance(name, int) and len(table) > name else {}
+
+
 POWERS = st.integers(-12, 12)
-KEYS = sorted({key[:n] for key in key_lines(EXAMPLE.text) for n in range(1, len(key) + 1)})
-QUANTITIES = [key for key in KEYS if NUMBER.match(str(EXAMPLE.value(key)))]
-Change = tuple[tuple[str, ...], Callable[[Any], Any]]
+OF_A_SITE: list[tuple[Any, ...]] = [
+    *(("soil", "cohesion", name) for name in ("gradient", "residual_gradient")),
+    ("soil", "friction_angle", "gradient"),
+    *(("boring", 0, name) for name in ("name", "x", "by", "noise", "cohesion", "friction_angle")),
+    ("boring",),
+]
+OF_EXAMPLE = sorted({key[:n] for key in key_lines(EXAMPLE.text) for n in range(1, len(key) + 1)})
+KEYS = [*OF_EXAMPLE, *OF_A_SITE]
+BORING = {"name": "B1", "x": "30 m", "cohesion": [["1 m", "20 kPa"]]}
+"""For keys that the example does not have."""
+
+QUANTITIES = [key for key in OF_EXAMPLE if NUMBER.match(str(EXAMPLE.value(key)))]
+Change = tuple[tuple[Any, ...], Callable[[Any], Any]]
 
 
 def replaced(value: Any) -> Callable[[Any], Any]:
@@ -74,11 +93,11 @@ LAYERS = st.lists(st.one_of(WITH_NAME, LAYER, JUNK), max_size=3)
 
 def changed(changes: list[Change]) -> dict[str, Any]:
     """Return the tables of the example with some of its keys replaced or removed."""
-    tables = copy.deepcopy(EXAMPLE.tables)
+    tables = copy.deepcopy(EXAMPLE.tables) | {"boring": [dict(BORING)]}
     for (*sections, name), change in changes:
         table: Any = tables
         for section in sections:
-            table = table.get(section, {}) if isinstance(table, dict) else {}
+            table = _inner(table, section)
         if isinstance(table, dict):
             value = change(table.pop(name, None))
             if value is not ...:
@@ -109,6 +128,9 @@ def assert_sensible(tables: dict[str, Any]) -> None:
     if messages:
         return
     scene = Scene.model_validate(tables | {"name": "scene", "text": "", "overrides": ()})
+    if impossible := [*impossible_data(scene)]:
+        assert all(complaint for _, complaint in impossible)
+        return
     json.dumps(scene.identity(), allow_nan=False)
     if refused := refusals(scene, MEMORY):
         assert all(complaint.text for complaint in refused)

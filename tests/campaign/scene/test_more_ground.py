@@ -20,6 +20,11 @@ ROAD = 'receptor=[{name="road", x="38 m"}]'
             "to the x of each receptor",
         ),
         (
+            [ROAD, 'boring=[{name="B1", x="30 m", cohesion=[["1 m", "20 kPa"]]}]'],
+            "lengthen geometry.slope.crest, for instance by 15 m, which moves the toe from x = 35 m to 50 m; add 15 m "
+            "to the x of each receptor; add 15 m to the x of each boring",
+        ),
+        (
             [f"geometry={{{SURFACE}}}"],
             "add ground on the left of geometry.surface, for instance 12 m of it: another point at x = 0 m, and 12 m "
             "more in the x of all others",

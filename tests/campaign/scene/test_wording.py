@@ -55,7 +55,7 @@ def test_a_syntax_error_names_the_line_and_the_missing_quotes(tmp_path: Path) ->
         ("soil.cell=1 m", 'it belongs to another section, as "numerics.cell".'),
         (
             "mesh.size=1 m",
-            "the keys here are title, geometry, soil, layer, water, field, numerics, slide, receptor, campaign.",
+            "the keys here are title, geometry, soil, layer, water, field, numerics, slide, receptor, boring, campaign",
         ),
         ("title.a=1", "--set title.a: title is a value, not a section"),
         ("nonsense", "--set nonsense has no key and value; write KEY=VALUE"),
