@@ -1,7 +1,7 @@
 """Lognormal soil properties, and what their correlation asks of the Gaussian fields behind them."""
 
 from dataclasses import dataclass
-from math import exp, expm1, log, log1p, sqrt
+from math import erfc, exp, expm1, log, log1p, sqrt
 
 import numpy as np
 
@@ -39,6 +39,21 @@ class Lognormal:
         if not self.cov:
             return np.full_like(gaussian, self.mean)
         return np.asarray(np.exp(self.log_mean + self.sigma * gaussian))
+
+
+def share_below(first: Lognormal, second: Lognormal, correlation: float = 0.0) -> float:
+    """Return the probability that the first of two values is below the second, `correlation` that of their Gaussians.
+
+    Phi((mu_2 - mu_1) / S), S^2 = sigma_1^2 + sigma_2^2 - 2 rho sigma_1 sigma_2.
+    """
+    gap, scatter = second.log_mean - first.log_mean, scatter_of_ratio(first, second, correlation)
+    return 0.5 * erfc(-gap / (sqrt(2.0) * scatter)) if scatter else float(gap > 0.0)
+
+
+def scatter_of_ratio(first: Lognormal, second: Lognormal, correlation: float = 0.0) -> float:
+    """Return the standard deviation of the logarithm of the ratio of two values."""
+    variance = first.sigma**2 + second.sigma**2 - 2.0 * correlation * first.sigma * second.sigma
+    return sqrt(max(variance, 0.0))
 
 
 def attainable_correlations(first: Lognormal, second: Lognormal) -> tuple[float, float]:

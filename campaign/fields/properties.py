@@ -60,6 +60,10 @@ class SoilProperty(NamedTuple):
         Value in SI below which it must stay everywhere.
     floor_key : str
         Mean key of the property below which it is at no particle, "" without one.
+    peak : str
+        Name of the property to which it is the residual, "" for a peak.
+    share_key : str
+        Key of the scene that makes it a share of the peak at each place, "" for a peak.
     marginal : type
         Its distribution, made of mean and coefficient of variation.
     """
@@ -74,14 +78,28 @@ class SoilProperty(NamedTuple):
     unit: Unit
     limit: float = inf
     floor_key: str = ""
+    peak: str = ""
+    share_key: str = ""
     marginal: type[Lognormal] = Lognormal
+
+    def share_of_peak(self, scene: Any) -> float | None:
+        """Return which share of the local peak it is, 1 where nothing softens; None if it has values of its own."""
+        if not self.peak:
+            return None
+        return 1.0 if scene.soil.softening.law == "none" else value_of(scene, self.share_key)
 
     def mean(self, scene: Any) -> float:
         """Return its mean in a scene at the top of the soil, in SI; 0 if the scene leaves the property out."""
+        share = self.share_of_peak(scene)
+        if share is not None:
+            return share * BY_NAME[self.peak].mean(scene)
         return value_of(scene, self.mean_key) or 0.0
 
     def gradient(self, scene: Any) -> float:
         """Return by how much its mean grows below the top of the soil, in SI per m."""
+        share = self.share_of_peak(scene)
+        if share is not None:
+            return share * BY_NAME[self.peak].gradient(scene)
         return value_of(scene, self.gradient_key) or 0.0
 
     def reference(self, scene: Any) -> float:
@@ -89,13 +107,15 @@ class SoilProperty(NamedTuple):
         return self.mean(scene) or self.gradient(scene)
 
     def trend(self, scene: Any, top: Surface) -> Trend | None:
-        """Return how the mean grows below the top of the soil, over `reference`; None if it does not."""
+        """Return how the mean grows below the top of the soil, over `reference`; None if it does not by itself."""
+        if self.share_of_peak(scene) is not None:
+            return None
         gradient, reference = self.gradient(scene), self.reference(scene)
         return Trend(self.mean(scene) / reference, gradient / reference, top) if gradient else None
 
     def distribution(self, scene: Any) -> Lognormal | None:
         """Return its distribution in a scene without its trend, in SI, also without variation; None if it has none."""
-        cov = value_of(scene, self.cov_key)
+        cov = value_of(scene, self.cov_key) if self.share_of_peak(scene) is None else None
         return None if cov is None else self.marginal(self.reference(scene), cov)
 
     @property
@@ -137,6 +157,8 @@ PROPERTIES = (
         long_name="residual cohesion",
         symbol="c_r",
         unit=PRESSURE,
+        peak="cohesion",
+        share_key="soil.cohesion.residual_share",
     ),
     SoilProperty(
         name="friction_angle_residual",
@@ -148,11 +170,16 @@ PROPERTIES = (
         symbol="phi_r",
         unit=ANGLE,
         limit=radians(90.0),
+        peak="friction_angle",
+        share_key="soil.friction_angle.residual_share",
     ),
 )
 """All of them. The place in this order decides which Gaussian field a property gets: a new row goes to the end."""
 
 BY_NAME = {row.name: row for row in PROPERTIES}
+
+RESIDUALS = tuple(row for row in PROPERTIES if row.peak)
+"""What peaks soften to."""
 
 
 def raised_to_floor(soil: Mapping[str, Array]) -> dict[str, Array]:

@@ -9,7 +9,18 @@ from pydantic import BaseModel, ValidationError
 
 from campaign.scene.document import Document, Location, location_of
 from campaign.scene.layer_soil import soils_of, written_out
-from campaign.scene.rules import cross_correlation, field, geometry, layer, numerics, receptor, slide, soil, water
+from campaign.scene.rules import (
+    cross_correlation,
+    field,
+    geometry,
+    layer,
+    numerics,
+    receptor,
+    residual,
+    slide,
+    soil,
+    water,
+)
 from campaign.scene.scene import flatten
 from campaign.scene.sections import FrictionAngle, SceneFile
 from campaign.scene.wording import explain, section_fields, wrong_value
@@ -17,7 +28,7 @@ from campaign.scene.wording import explain, section_fields, wrong_value
 Key = tuple[str | int, ...]
 
 # A cell too large breaks rules of the ground as well, and is to be read first.
-SECTIONS = (numerics, geometry, slide, soil, layer, water, field, cross_correlation, receptor)
+SECTIONS = (numerics, geometry, slide, soil, residual, layer, water, field, cross_correlation, receptor)
 
 
 def mistakes(document: Document, model: type[BaseModel], example: Document) -> list[str]:

@@ -234,7 +234,8 @@ def _apply(override: str, tables: dict[str, Any]) -> str | None:
             return f"--set {'.'.join(path)}: {_why_not(path, depth, inner, tables)}"
     if not isinstance(inner, dict):
         return f"--set {'.'.join(path)}: {_why_not(path, len(path), inner, tables)}"
-    inner.pop(replaced_by(path), None)
+    for name in replaced_by(path):
+        inner.pop(name, None)
     inner[last] = _override_value(override.partition("=")[2].strip())
     return None
 

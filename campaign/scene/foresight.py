@@ -17,6 +17,7 @@ from campaign.scene.more_ground import behind_crest, key_of
 from campaign.scene.odd_layers import odd_layers
 from campaign.scene.odd_sections import odd_sections
 from campaign.scene.outlook import may_slide
+from campaign.scene.raised_peaks import raised_peaks
 from campaign.scene.sections import Campaign
 from campaign.scene.softening import is_brittle
 from campaign.scene.toe import misplaced_toe
@@ -67,6 +68,7 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
             far_from_failure(look),
             *odd_sections(scene, look.surface),
             *odd_layers(scene, look),
+            *raised_peaks(scene),
             coarse_cells(scene, look),
             toe,
             *(front(scene, look) for front in fronts),

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from campaign.fields.properties import PROPERTIES, value_of
+from campaign.fields.properties import PROPERTIES, RESIDUALS, value_of
 from campaign.scene.comparison import kind_of
 from campaign.scene.layer_soil import gives
 from campaign.scene.layers import layer_names, layer_scenes
@@ -16,6 +16,9 @@ MORE = 0.1
 SOFTENING = "soil.softening."
 
 INTERNAL_LENGTH = f"{SOFTENING}internal_length"
+
+OF_RESIDUALS = tuple(row.mean_key for row in RESIDUALS)
+"""What the keys begin with that nothing reads where nothing softens."""
 
 
 class Input(NamedTuple):
@@ -63,6 +66,7 @@ INPUTS = (
     Input("soil.softening.reference_cell", "reference cell of softening"),
     Input(INTERNAL_LENGTH, "internal length of softening"),
     *(Input(row.mean_key, f"mean {row.long_name}", row.cov_key) for row in PROPERTIES),
+    *(Input(row.share_key, f"{row.long_name} over the peak") for row in RESIDUALS),
     *(Input(row.gradient_key, f"growth of the {row.long_name} with depth") for row in PROPERTIES),
     Input("soil.unit_weight", "unit weight"),
     Input("soil.saturated_unit_weight", "saturated unit weight"),
@@ -103,8 +107,9 @@ def _of_layer(row: Input, number: int) -> Input:
 
 def _counts(scene: Scene, row: Input) -> bool:
     softening = scene.soil.softening
-    unused = SOFTENING if softening.law == "none" else INTERNAL_LENGTH if softening.slip_to_residual else "-"
-    return bool(value_of(scene, row.key)) and not row.key.startswith(unused)
+    if softening.law == "none" and row.key.startswith((SOFTENING, *OF_RESIDUALS)):
+        return False
+    return bool(value_of(scene, row.key)) and not (softening.slip_to_residual and row.key == INTERNAL_LENGTH)
 
 
 def by_key(scene: Scene) -> dict[str, Input]:

@@ -7,7 +7,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from campaign.fields.correlation import KERNELS
-from campaign.fields.properties import PROPERTIES
+from campaign.fields.properties import PROPERTIES, RESIDUALS
 from campaign.scene.comparison import kind_of
 from campaign.scene.sections import SceneFile, Soil
 from campaign.scene.units import shown_in_unit
@@ -21,8 +21,8 @@ DEPENDS = {
     "geometry.toe": "the foot of the slope",
     "field.resolution": "the shorter distance / 8",
     "soil.saturated_unit_weight": "unit_weight",
-    "soil.cohesion.residual_cov": "0",
-    "soil.friction_angle.residual_cov": "0",
+    **{row.mean_key: row.share_key.rpartition(".")[2] for row in RESIDUALS},
+    **{row.cov_key: "0" for row in RESIDUALS},
     **{row.gradient_key: "0" for row in PROPERTIES},
     "boring.noise": "0",
 }
@@ -39,8 +39,7 @@ TAKES = {
     "field.correlation": ", ".join(f'"{name}"' for name in KERNELS),
     "campaign.accuracy": "a share or a length",
     "soil.softening.rate": "a number",
-    "soil.cohesion.residual_cov": "a number",
-    "soil.friction_angle.residual_cov": "a number",
+    **{key: "a number" for row in RESIDUALS for key in (row.share_key, row.cov_key)},
 }
 """What their types do not tell."""
 

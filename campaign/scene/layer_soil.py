@@ -46,7 +46,7 @@ def gives(layer: Layer, key: str) -> bool:
 
 
 def _with(section: T, own: dict[str, Any], path: tuple[str, ...]) -> T:
-    values: dict[str, Any] = {replaced_by((*path, name)): None for name in own if replaced_by((*path, name))}
+    values: dict[str, Any] = {replaced: None for name in own for replaced in replaced_by((*path, name))}
     for name, value in own.items():
         below = getattr(section, name)
         if isinstance(value, Section):

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from campaign.fields.properties import BY_NAME, PROPERTIES, value_of
+from campaign.fields.properties import BY_NAME, PROPERTIES, RESIDUALS, SoilProperty, value_of
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.layers import interfaces_of, layer_names, layer_scenes, thickness_above
 from campaign.scene.scene import Scene
@@ -74,7 +74,7 @@ def _trends(scene: Scene) -> str:
         f"the mean {row.long_name} grows by {row.unit.show(row.gradient(scene))} per metre of depth, from "
         f"{row.unit.show(row.mean(scene))}"
         for row in PROPERTIES
-        if row.gradient(scene)
+        if row.gradient(scene) and row.share_of_peak(scene) is None
     ]
     return listing(told) if told else "does not grow with depth"
 
@@ -94,8 +94,13 @@ def _range(thickness: NDArray[np.float64]) -> str:
 def _residual(scene: Scene) -> str:
     if scene.soil.softening.law == "none":
         return LASTING
-    values = (_value(scene, name) for name in ("cohesion_residual", "friction_angle_residual"))
+    values = (_residual_value(scene, row) for row in RESIDUALS)
     return ", ".join(value for value in values if value != NONE)
+
+
+def _residual_value(scene: Scene, row: SoilProperty) -> str:
+    share = row.share_of_peak(scene)
+    return _value(scene, row.name) if share is None else f"{100 * share:.3g} % of the peak"
 
 
 def _value(scene: Scene, name: str) -> str:

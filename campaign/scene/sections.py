@@ -71,12 +71,13 @@ class Cohesion(Section):
     """Lognormal peak cohesion (undrained strength with the law "tresca"), and the residual one; in Pa.
 
     Either is its mean everywhere where its coefficient of variation is 0 or left out. Means grow by their gradients, in
-    Pa/m, below the ground surface, or the top of a layer.
+    Pa/m, below the ground surface, or the top of a layer. Or the residual one is a share of the peak at each place.
     """
 
     mean: Annotated[Pressure, NOT_NEGATIVE]
     cov: Cov
-    residual: Annotated[Pressure, NOT_NEGATIVE]
+    residual: Annotated[Pressure, NOT_NEGATIVE] | None = None
+    residual_share: Fraction | None = None
     residual_cov: OptionalCov = None
     gradient: PressureGrowth = None
     residual_gradient: PressureGrowth = None
@@ -85,12 +86,13 @@ class Cohesion(Section):
 class FrictionAngle(Section):
     """Lognormal peak friction angle, and the residual one, each its mean everywhere without a variation; in rad.
 
-    Means grow by their gradients, in rad/m.
+    Means grow by their gradients, in rad/m. Or the residual one is a share of the peak at each place.
     """
 
     mean: Annotated[Angle, must("be at least 0 deg and below 90 deg", lambda angle: 0.0 <= angle < radians(90.0))]
     cov: Cov
-    residual: Annotated[Angle, NOT_NEGATIVE]
+    residual: Annotated[Angle, NOT_NEGATIVE] | None = None
+    residual_share: Fraction | None = None
     residual_cov: OptionalCov = None
     gradient: AngleGrowth = None
     residual_gradient: AngleGrowth = None

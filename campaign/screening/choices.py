@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaign.fields.properties import BY_NAME, value_of
+from campaign.fields.properties import BY_NAME, RESIDUALS, marginals, value_of
 from campaign.running.study import Changes
 from campaign.scene import Scene
 from campaign.scene.boring_data import measured_in
@@ -27,7 +27,6 @@ SOFTER = 4.0
 """By which Young's modulus is divided: steps become twice as long."""
 
 PEAKS = ("friction_angle", "cohesion")
-RESIDUALS = ("cohesion_residual", "friction_angle_residual")
 
 
 class Choice(NamedTuple):
@@ -85,7 +84,7 @@ def _soil(scene: Scene) -> Iterator[Choice]:
             yield Choice(
                 f"random {row.long_name}", "its mean", changes, why_not=why_not if row.name in measured else ""
             )
-    drawn = [name for name in RESIDUALS if any(value_of(layer, BY_NAME[name].cov_key) for layer in layers)]
+    drawn = [row.name for row in RESIDUALS if any(row.name in marginals(layer) for layer in layers)]
     if drawn:
         fixed = [change for name in drawn for change in _everywhere(scene, BY_NAME[name].cov_key, "0")]
         changes = (*fixed, *_pairs_without(scene, drawn))

@@ -207,7 +207,10 @@ class Ground:
         soil, drawn = {row.name: np.empty(self.n_particles) for row in PROPERTIES}, self._at_particles(field)
         for layer, is_here in self._layers():
             for row in PROPERTIES:
-                soil[row.name][is_here] = drawn[row.name][is_here] if row.name in drawn else row.mean(layer)
+                if (share := row.share_of_peak(layer)) is not None:
+                    soil[row.name][is_here] = share * soil[row.peak][is_here]
+                else:
+                    soil[row.name][is_here] = drawn[row.name][is_here] if row.name in drawn else row.mean(layer)
         return soil
 
     def raised_shares(self, realization: int) -> dict[str, float]:

@@ -5,7 +5,7 @@ from math import log, radians, sqrt
 import numpy as np
 
 from campaign.scene.scene import Scene
-from campaign.scene.sections import Cohesion, FrictionAngle, Geometry, RandomField, Soil
+from campaign.scene.sections import Cohesion, FrictionAngle, Geometry, RandomField, Softening, Soil
 from campaign.simulation.scene_sampler import strength_sampler
 
 COHESION = Cohesion.model_construct(mean=20e3, cov=0.3, residual=10e3)
@@ -29,7 +29,8 @@ def box_scene(cohesion=COHESION, friction_angle=FRICTION, **changes):
         "resolution": 0.5,
     }
     field = RandomField.model_construct(**values | changes)
-    soil = Soil.model_construct(cohesion=cohesion, friction_angle=friction_angle)
+    softening = Softening.model_construct(law="exponential")
+    soil = Soil.model_construct(cohesion=cohesion, friction_angle=friction_angle, softening=softening)
     return Scene.model_construct(soil=soil, field=field, geometry=BOX)
 
 

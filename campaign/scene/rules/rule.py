@@ -5,6 +5,8 @@ from typing import Any, NamedTuple
 
 Check = Callable[..., str | None]
 
+ABSENT = object()
+
 SOIL = "soil"
 """The section whose rules hold for the soil of each layer, too."""
 
@@ -67,7 +69,9 @@ def _in_layers(rule: Rule, values: Mapping[str, Any]) -> Iterator[tuple[tuple[st
     while any(f"layer.{number}.{key}" in values for key in ("name", "law")):
         keys = tuple(_in_layer(key, number) for key in rule.keys)
         has_all = all(key in values for key in keys)
-        if has_all and any(values[key] != values.get(of_soil) for key, of_soil in zip(keys, rule.keys, strict=True)):
+        if has_all and any(
+            values[key] != values.get(of_soil, ABSENT) for key, of_soil in zip(keys, rule.keys, strict=True)
+        ):
             yield keys, number
         number += 1
 

@@ -16,6 +16,8 @@ EXTREME_QUANTILE = 5.5
 FRICTIONLESS = "tresca"
 """The law without a friction angle."""
 
+SOFTENING_LAW = "soil.softening.law"
+
 NO_STRENGTH = "soil without cohesion and friction is a liquid, which stands at no slope; give one of both"
 
 RULES = Rules()
@@ -75,15 +77,15 @@ def _undrained_dilation(dilation: float, law: str) -> str | None:
 def _add_rules_of(row: SoilProperty) -> None:
     """Add the rules that the table of properties asks for, one property at a time."""
 
-    def not_above_peak(floor: float, mean: float) -> str | None:
-        if floor > mean:
+    def not_above_peak(floor: float | None, mean: float, law: str) -> str | None:
+        if floor is not None and floor > mean and law != "none":
             return (
                 f"it must not exceed the mean {row.long_name}, {row.unit.show(mean)}; soil that hardens is not modelled"
             )
         return None
 
-    def within_limit(cov: float | None, mean: float, gradient: float | None) -> str | None:
-        if not cov or (gradient and not mean):
+    def within_limit(cov: float | None, mean: float | None, gradient: float | None) -> str | None:
+        if not cov or mean is None or (gradient and not mean):
             return None
         if mean <= 0.0:
             return (
@@ -98,11 +100,11 @@ def _add_rules_of(row: SoilProperty) -> None:
         return None
 
     if row.floor_key:
-        RULES.on(row.floor_key, row.mean_key)(not_above_peak)
+        RULES.on(row.floor_key, row.mean_key, SOFTENING_LAW)(not_above_peak)
     RULES.on(row.cov_key, row.mean_key, row.gradient_key)(within_limit)
 
-    def at_depth(gradient: float | None, mean: float, cov: float | None, depth: float) -> str | None:
-        if not gradient:
+    def at_depth(gradient: float | None, mean: float | None, cov: float | None, depth: float) -> str | None:
+        if not gradient or mean is None:
             return None
         deepest = mean + gradient * depth
         if deepest >= row.limit or (cov and cov >= largest_allowed_cov(deepest, row.limit)):
@@ -113,8 +115,15 @@ def _add_rules_of(row: SoilProperty) -> None:
         return None
 
     def not_above_peak_at_depth(
-        gradient: float | None, floor: float, peak_gradient: float | None, peak: float, depth: float
+        gradient: float | None,
+        floor: float | None,
+        peak_gradient: float | None,
+        peak: float,
+        law: str,
+        depth: float,
     ) -> str | None:
+        if floor is None or law == "none":
+            return None
         here, there = floor + (gradient or 0.0) * depth, peak + (peak_gradient or 0.0) * depth
         if gradient and here > there:
             return (
@@ -125,7 +134,8 @@ def _add_rules_of(row: SoilProperty) -> None:
 
     _on_deepest(at_depth, row.gradient_key, row.mean_key, row.cov_key)
     if row.floor_key:
-        _on_deepest(not_above_peak_at_depth, _of_floor(row).gradient_key, row.floor_key, row.gradient_key, row.mean_key)
+        keys = _of_floor(row).gradient_key, row.floor_key, row.gradient_key, row.mean_key, SOFTENING_LAW
+        _on_deepest(not_above_peak_at_depth, *keys)
 
 
 def _of_floor(row: SoilProperty) -> SoilProperty:
@@ -151,13 +161,35 @@ for _row in PROPERTIES:
     _add_rules_of(_row)
 
 
-@RULES.on("soil.dilation_angle", "soil.friction_angle.residual", "soil.friction_angle.residual_cov")
-def _dilation(dilation: float, residual: float, cov: float | None) -> str | None:
-    least = residual if cov is None else least_value(residual, cov)
+@RULES.on(
+    "soil.dilation_angle",
+    SOFTENING_LAW,
+    "soil.friction_angle.mean",
+    "soil.friction_angle.cov",
+    "soil.friction_angle.residual",
+    "soil.friction_angle.residual_cov",
+    "soil.friction_angle.residual_share",
+)
+def _dilation(
+    dilation: float,
+    law: str,
+    mean: float,
+    cov: float,
+    residual: float | None,
+    residual_cov: float | None,
+    share: float | None,
+) -> str | None:
+    if law == "none":
+        name, value, scatter = "friction angle", mean, cov
+    elif share is not None:
+        name, value, scatter = "residual friction angle", share * mean, cov
+    else:
+        name, value, scatter = "residual friction angle", residual or 0.0, residual_cov or 0.0
+    least = least_value(value, scatter)
     if dilation > least:
         return (
-            f"it must not exceed the {'' if cov is None else 'least '}residual friction angle, {degrees(least)}, "
-            "or softened soil would create energy; use 0 deg"
+            f"it must not exceed the {'least ' if scatter else ''}{name}, {degrees(least)}, or softened soil would "
+            "create energy; use 0 deg"
         )
     return None
 

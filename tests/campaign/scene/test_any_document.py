@@ -48,7 +48,7 @@ def _inner(table: Any, name: str | int) -> Any:
 
 POWERS = st.integers(-12, 12)
 OF_A_SITE: list[tuple[Any, ...]] = [
-    *(("soil", "cohesion", name) for name in ("gradient", "residual_gradient")),
+    *(("soil", "cohesion", name) for name in ("gradient", "residual_gradient", "residual_share")),
     ("soil", "friction_angle", "gradient"),
     *(("boring", 0, name) for name in ("name", "x", "by", "noise", "cohesion", "friction_angle")),
     ("boring",),
@@ -82,7 +82,9 @@ def removed(_: Any) -> Any:
 
 
 JUNKED = st.lists(
-    st.tuples(st.sampled_from(KEYS), st.one_of(JUNK.map(replaced), st.just(removed))), min_size=1, max_size=6
+    st.tuples(st.sampled_from(KEYS), st.one_of(JUNK.map(replaced), st.just(removed))),
+    min_size=1,
+    max_size=6,
 )
 SCALED = st.lists(st.tuples(st.sampled_from(QUANTITIES), POWERS.map(scaled)), min_size=1, max_size=3)
 PARTS = st.dictionaries(st.sampled_from([*FrictionAngle.model_fields, *Softening.model_fields]), JUNK, max_size=3)

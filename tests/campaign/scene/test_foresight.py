@@ -52,7 +52,7 @@ def test_the_built_in_scenes_are_sound(source):
         (["geometry.slope.foundation=2 m", "soil.friction_angle.mean=3 deg", "soil.friction_angle.residual=0.5 deg",
           "soil.cohesion.mean=35 kPa"], "the critical slip circle comes down to 0.65 m above the fixed base, and the"),
         (["geometry.slope.foundation=2 m"], "comes out at the toe, 2 m above the fixed base, and a band of 1.25 m may"),
-        (["soil.cohesion.mean=1 kPa", "soil.cohesion.residual=1 kPa", "soil.friction_angle.mean=30 deg"],
+        (["soil.cohesion.mean=1 kPa", "soil.cohesion.residual_share=1", "soil.friction_angle.mean=30 deg"],
          "badly; use "),
         (["numerics.output_interval=1e-4 s"], 'need 100,000 steps instead of 3,508; use "0.029 s" or more'),
         (["numerics.flip=0.999"], "--set numerics.flip is 0.999, but this damping takes about 0.8 % of the work"),
@@ -68,11 +68,15 @@ def test_the_built_in_scenes_are_sound(source):
         (["slide.front_area=100 m^2"], "the front is to leave 1e+02 m2 of it ahead; use "),
         (["soil.unit_weight=20 N/m^3"], 'is "20 N/m^3", but soils have 5 to 40 kN/m^3; check the number and the unit.'),
         (["soil.young_modulus=1 Pa"], "but soils have 0.1 MPa (very soft) to 100 GPa"),
-        (["soil.cohesion.cov=10.0"], "but soils have 0.1 to 0.6"),
+        (["soil.cohesion.cov=10.0", "soil.cohesion.residual_share=0.5"], "but soils have 0.1 to 0.6"),
         ([MIRRORED], "falls by 15 m towards the left and by 6 m towards the right, where slides go; if"),
         ([ABOVE_SEA], "the ground goes 304 m below the foot of a slope of 15 m, and what lies deeper than one height"),
         ([WALL], "around x = 50 m it has a wall or a slot 3 m high that is narrower than a cell of 1 m"),
         ([SLOT], "it has a wall or a slot 2.5 m high that is narrower than a cell of 1 m"),
+        (["soil.cohesion.residual=16 kPa"],
+         'in 1.4 % of the ground the peak cohesion that is drawn is below it and is raised to it, which makes the '
+         'ground stronger and less variable than it is written; give residual_share = 0.8 in its place, a share of the '
+         'peak at each place, or at most "15 kPa".'),
         (["soil.softening.rate=1e14"], "but soils have about 0.1 to 10"),
     ],
 )  # fmt: skip

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from campaign.errors import RefusalError
-from campaign.fields.properties import PROPERTIES
+from campaign.fields.properties import PROPERTIES, RESIDUALS
 from campaign.scene import load_scene
 from campaign.scene.cost import core_seconds, with_more_of_an_input
 from campaign.scene.inputs import BY_KEY, INPUTS, inputs_of, raised, with_more
@@ -19,7 +19,8 @@ def keys(scene):
 
 def test_a_scene_has_the_inputs_that_count_in_it():
     others = ["soil.softening.slip_to_residual", "soil.softening.reference_cell"]
-    of_other_ground = [*(row.gradient_key for row in PROPERTIES), "soil.saturated_unit_weight", "water.r_u"]
+    of_other_ground = [row.share_key for row in RESIDUALS] + [row.gradient_key for row in PROPERTIES]
+    of_other_ground += ["soil.saturated_unit_weight", "water.r_u"]
     assert [row.key for row in INPUTS if row.key not in keys(MA2023)] == [*others, *of_other_ground]
     assert "water.r_u" in keys(load_scene("ma2023", ["water.r_u=0.2"]))
     by_slip = keys(load_scene("ma2023", ["soil.softening.slip_to_residual=2 m"]))
@@ -27,7 +28,9 @@ def test_a_scene_has_the_inputs_that_count_in_it():
     assert "soil.softening.internal_length" not in by_slip
     assert "soil.softening.reference_cell" in keys(load_scene("ma2023-printed"))
     hard = load_scene("ma2023", ['soil.softening={law = "none"}'])
-    assert not [key for key in keys(hard) if "softening" in key]
+    assert not [key for key in keys(hard) if "softening" in key or "residual" in key]
+    share = keys(load_scene("ma2023", ["soil.cohesion.residual_share=0.5"]))
+    assert [key for key in share if "cohesion" in key] == ["soil.cohesion.mean", "soil.cohesion.residual_share"]
     assert "soil.cohesion.residual" not in keys(load_scene("ma2023", ["soil.cohesion.residual=0 kPa"]))
 
 
@@ -51,7 +54,7 @@ def test_the_campaign_of_a_changed_scene_is_that_of_its_own():
 
 
 def test_more_of_what_cannot_be_more_is_refused():
-    scene = load_scene("ma2023", ["soil.cohesion.residual=19 kPa"])
+    scene = load_scene("ma2023", ["soil.cohesion.residual=19 kPa", "soil.cohesion.cov=0.01"])
     with pytest.raises(RefusalError, match="must not exceed the mean peak cohesion"):
         with_more(scene, BY_KEY["soil.cohesion.residual"])
 

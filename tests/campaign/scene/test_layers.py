@@ -157,8 +157,10 @@ def test_a_layer_has_one_top_and_a_friction_angle_that_is_whole(tmp_path):
     path.write_text(text + sand, "utf-8")
     assert "add a section [layer.friction_angle]" in complaint(source=path)
     path.write_text(f'{text}{sand}friction_angle.mean = "30 deg"\n', "utf-8")
-    missing = complaints(source=path)
-    assert [message.partition(" has no ")[2].partition(";")[0] for message in missing] == ["cov", "residual"]
+    cov, residual = complaints(source=path)
+    assert " has no cov; add it" in cov
+    assert residual.startswith("layer.friction_angle.residual")
+    assert "is not given, but the exponential law needs it" in residual
     path.write_text(f'{text}{sand}friction_angle = {{mean = "30 deg", cov = 0.1, residual = "20 deg"}}\n', "utf-8")
     soil, below = load_scene(path).soils
     assert (soil.friction_angle, below.friction_angle.cov) == (None, 0.1)

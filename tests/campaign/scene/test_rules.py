@@ -71,6 +71,9 @@ def test_dilation_is_within_the_least_residual_friction_angle() -> None:
     scatter = "soil.friction_angle.residual_cov=0.2"
     assert "the least residual friction angle, 1.64" in complaint(scatter, "soil.dilation_angle=2 deg")
     load_scene("ma2023", [scatter, "soil.dilation_angle=1.6 deg"])
+    share = "soil.friction_angle.residual_share=0.5"
+    assert "the least residual friction angle, 2.87" in complaint(share, "soil.dilation_angle=3 deg")
+    assert "the least friction angle, 5.7" in complaint("soil.softening.law=none", "soil.dilation_angle=6 deg")
 
 
 def test_what_counts_as_a_slide_must_suit_the_height() -> None:
