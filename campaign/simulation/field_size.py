@@ -11,7 +11,15 @@ from campaign.scene.ground_surface import surface_of
 from campaign.simulation.scene_sampler import AUTOMATIC, correlation_of, reference_grid
 from campaign.terminal import data_size
 
-PERIODS = {"exponential": (3.5, 20.0), "squared-exponential": (9.5, 12.0), "turned": (9.5, 20.0)}
+PERIODS = {
+    "exponential": (3.5, 20.0),
+    "squared-exponential": (9.5, 12.0),
+    "turned": (9.5, 20.0),
+    "matern-3/2": (9.5, 20.0),
+    "matern-5/2": (9.5, 20.0),
+    "spherical": (3.5, 5.5),
+    "cosine-exponential": (3.5, 25.0),
+}
 """Least and largest period over the reach of the correlation at which circulant embedding was exact, over grids of 15
 to 120 cells and distances of 2 to 1000 cells. Along the axes the separable exponential needs no more than the grid."""
 

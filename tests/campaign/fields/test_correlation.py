@@ -7,6 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
+from scipy.optimize import brentq
+from scipy.special import gamma, kv
 
 from campaign.fields.correlation import KERNELS, Correlation, autocorrelation_distance
 
@@ -54,7 +56,43 @@ def test_fabric_turns_counter_clockwise(kind, s, angle):
 def test_correlation_is_even_and_at_most_one(kind, dx, dy, angle):
     correlation = Correlation(kind, 20.0, 2.0, angle)
     assert correlation(dx, dy) == correlation(-dx, -dy)
-    assert 0.0 <= correlation(dx, dy) <= 1.0
+    assert (-0.07 if kind == "cosine-exponential" else 0.0) <= correlation(dx, dy) <= 1.0
+
+
+@pytest.mark.parametrize("kind", KERNELS)
+def test_no_wave_has_a_negative_variance_in_the_plane(kind):
+    """The transform of the correlation over the plane, by a lattice of 64 distances with 8 points in each.
+
+    On such a lattice the transform is a sum of the true one over all aliases, and none of these is negative.
+    """
+    x = np.fft.fftfreq(512, 1.0 / 64.0)
+    density = np.fft.fft2(Correlation(kind, 1.0, 1.0)(x, x[:, None])).real
+    assert density.min() > -1e-13 * density.max()
+
+
+def test_a_wave_shorter_than_its_decay_would_have_a_negative_variance():
+    """exp(-t) cos(b t) is positive definite in the plane up to b = 1, and no longer at b = 1.1 (Yaglom 1987)."""
+    x = np.fft.fftfreq(512, 1.0 / 64.0)
+    t = np.hypot(x, x[:, None])
+    density = np.fft.fft2(np.exp(-t) * np.cos(1.1 * t)).real
+    assert density.min() < -1e-3 * density.max()
+
+
+def test_formulas_of_smooth_and_bedded_soil():
+    """Against the general Matérn formula with the Bessel function K, and the sphere's overlap at half its diameter."""
+    r = np.array([0.1, 0.7, 2.0])
+    for kind, order in (("matern-3/2", 1.5), ("matern-5/2", 2.5)):
+        a = brentq(lambda a, nu=order: matern(nu, a) - exp(-1.0), 1.0, 5.0, xtol=1e-14)
+        np.testing.assert_allclose(Correlation(kind, 1.0, 1.0)(r, 0.0), matern(order, a * r), rtol=1e-12)
+    radius = brentq(lambda d: 1.0 - 1.5 / d + 0.5 / d**3 - exp(-1.0), 1.1, 10.0, xtol=1e-14)
+    assert Correlation("spherical", 1.0, 1.0)(radius / 2.0, 0.0) == pytest.approx(0.3125)
+    assert Correlation("spherical", 1.0, 1.0)(1.0001 * radius, 0.0) == 0.0
+    quarter = brentq(lambda t: exp(-t) * cos(t) - exp(-1.0), 0.1, 1.0, xtol=1e-14)
+    assert Correlation("cosine-exponential", 1.0, 1.0)(pi / 2.0 / quarter, 0.0) == pytest.approx(0.0, abs=1e-15)
+
+
+def matern(order, t):
+    return 2.0 ** (1.0 - order) / gamma(order) * t**order * kv(order, t)
 
 
 @pytest.mark.parametrize("kind", KERNELS)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from campaign.fields.correlation import Correlation
+from campaign.fields.correlation import KERNELS, Correlation
 from campaign.fields.reference_grid import ReferenceGrid
 from campaign.fields.samplers import CirculantSampler
 from campaign.scene import load_scene
@@ -11,7 +11,7 @@ from campaign.simulation.field_size import circulant_bytes, field_size, perhaps_
 
 @pytest.mark.parametrize("angle", [0.0, 0.3])
 @pytest.mark.parametrize("lengths", [(3.0, 3.0), (60.0, 2.0), (60.0, 15.0), (100.0, 4.0)])
-@pytest.mark.parametrize("kind", ["exponential", "separable-exponential", "squared-exponential"])
+@pytest.mark.parametrize("kind", KERNELS)
 def test_the_sampler_takes_what_is_foreseen(kind, lengths, angle):
     """Within 10 %, by which a period is longer than needed to be fast to transform."""
     correlation, grid = Correlation(kind, *lengths, angle), ReferenceGrid(1.0, (15, 60))
