@@ -87,8 +87,8 @@ class CirculantSampler:
         Any correlation.
     shape : tuple of int
         Rows and columns (ny, nx) of the grid.
-    spacing : float
-        Distance of neighbouring points [m], the same along x and y.
+    spacing : float or tuple of float
+        Distance of neighbouring points [m], or that of rows and that of columns.
 
     Attributes
     ----------
@@ -109,13 +109,14 @@ class CirculantSampler:
     Dietrich and Newsam (1997), doi:10.1137/S1064827592240555.
     """
 
-    def __init__(self, correlation: Correlation, shape: tuple[int, int], spacing: float) -> None:
+    def __init__(self, correlation: Correlation, shape: tuple[int, int], spacing: float | tuple[float, float]) -> None:
         self.shape = shape
         self.torus = smallest_torus(shape)
-        eigenvalues = circulant_eigenvalues(correlation, self.torus, spacing)
+        apart = spacing if isinstance(spacing, tuple) else (spacing, spacing)
+        eigenvalues = circulant_eigenvalues(correlation, self.torus, apart)
         while eigenvalues.min() < LEAST_EIGENVALUE * eigenvalues.max():
-            self.torus = larger_torus(self.torus, correlation)
-            eigenvalues = circulant_eigenvalues(correlation, self.torus, spacing)
+            self.torus = larger_torus(self.torus, correlation, apart)
+            eigenvalues = circulant_eigenvalues(correlation, self.torus, apart)
         kept = eigenvalues.clip(min=0.0)
         self.least_eigenvalue = float(eigenvalues.min() / eigenvalues.max())
         self.clip_mass = float((kept - eigenvalues).sum() / eigenvalues.sum())
@@ -150,23 +151,24 @@ def smallest_torus(shape: tuple[int, int]) -> tuple[int, int]:
     return rows, columns
 
 
-def larger_torus(torus: tuple[int, int], correlation: Correlation) -> tuple[int, int]:
+def larger_torus(torus: tuple[int, int], correlation: Correlation, spacing: tuple[float, float]) -> tuple[int, int]:
     """Lengthen the period that is the shorter one, measured in autocorrelation distances."""
     reach_x, reach_y = correlation.reach
     rows, columns = torus
-    if rows / reach_y < columns / reach_x:
+    if rows / reach_y < columns / reach_x * (spacing[1] / spacing[0]):
         rows = fft.next_fast_len(rows + rows // 8 + 1)
     else:
         columns = fft.next_fast_len(columns + columns // 8 + 1)
     return rows, columns
 
 
-def circulant_eigenvalues(correlation: Correlation, torus: tuple[int, int], spacing: float) -> Array:
+def circulant_eigenvalues(correlation: Correlation, torus: tuple[int, int], spacing: tuple[float, float]) -> Array:
     """Return the transform of the correlation with the origin of a periodic grid; lags are the shorter ones."""
     rows, columns = torus
     # Eigenvalues, amplitudes, noise, modes and the field: eight numbers a point at the same time.
-    refuse_large(64 * rows * columns, f"A circulant embedding of {spacing * columns:.0f} m x {spacing * rows:.0f} m")
-    y, x = (spacing * n * fft.fftfreq(n) for n in torus)
+    size = f"{spacing[1] * columns:.0f} m x {spacing[0] * rows:.0f} m"
+    refuse_large(64 * rows * columns, f"A circulant embedding of {size}")
+    y, x = (apart * n * fft.fftfreq(n) for apart, n in zip(spacing, torus, strict=True))
     # At half the period a lag and its opposite are the same point; the real part takes the mean of their correlations.
     return np.asarray(fft.fft2(correlation(x, y[:, None]), workers=1).real)
 

@@ -6,15 +6,18 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from campaign.errors import SamplerError
 from campaign.fields.cholesky import CholeskySampler
 from campaign.fields.conditioning import Conditioning, Datum, merged
 from campaign.fields.correlation import Array, Correlation, autocorrelation_distance
 from campaign.fields.cross_correlation import gaussian_matrix, lower_factor
+from campaign.fields.embedding import circulant_bytes
 from campaign.fields.marginals import Lognormal
 from campaign.fields.properties import PROPERTIES, distributions
 from campaign.fields.reference_grid import Mask, ReferenceGrid
 from campaign.fields.samplers import CirculantSampler, KroneckerSampler, Sampler
 from campaign.fields.strengths import LayerSoil, StrengthSampler
+from campaign.fields.stretched import LARGEST_EMBEDDING, StretchedSampler
 from campaign.scene.boring_data import Measured, measured_in, standard_value
 from campaign.scene.layers import interfaces_of, layer_at, layer_scenes, tops_of
 from campaign.scene.scene import Scene
@@ -141,6 +144,17 @@ def correlation_of(field: RandomField) -> Correlation:
     return Correlation(field.correlation, along, across, field.angle)
 
 
+def circulant_sampler(correlation: Correlation, grid: ReferenceGrid) -> Sampler:
+    """Build the sampler on a periodic grid, or, where that would be too large, on fewer nodes."""
+    least, _ = circulant_bytes(correlation, grid.shape, (grid.resolution,) * 2)
+    if least <= LARGEST_EMBEDDING:
+        try:
+            return CirculantSampler(correlation, grid.shape, grid.resolution)
+        except SamplerError:  # the period had to be longer than was foreseen
+            pass
+    return StretchedSampler(correlation, grid.shape, grid.resolution)
+
+
 def gaussian_sampler(
     method: str, correlation: Correlation, grid: ReferenceGrid, cells: NDArray[np.bool_], directory: Path | None
 ) -> Sampler:
@@ -148,6 +162,6 @@ def gaussian_sampler(
     if method == "kronecker":
         return KroneckerSampler(correlation, grid.x, grid.y)
     if method == "circulant":
-        return CirculantSampler(correlation, grid.shape, grid.resolution)
+        return circulant_sampler(correlation, grid)
     x, y = np.meshgrid(grid.x, grid.y)
     return CholeskySampler(correlation, x[cells], y[cells], directory)

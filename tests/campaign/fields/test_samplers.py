@@ -68,7 +68,7 @@ def test_circulant_pads_until_its_spectrum_is_not_negative():
     """On the smallest torus the squared exponential of a long correlation wraps around and has negative eigenvalues."""
     correlation = Correlation("squared-exponential", 5.0, 5.0)
     smallest = samplers.smallest_torus((ROWS, COLUMNS))
-    eigenvalues = samplers.circulant_eigenvalues(correlation, smallest, SPACING)
+    eigenvalues = samplers.circulant_eigenvalues(correlation, smallest, (SPACING, SPACING))
     assert eigenvalues.min() < -1e-6 * eigenvalues.max()
     assert np.prod(CirculantSampler(correlation, (ROWS, COLUMNS), SPACING).torus) > np.prod(smallest)
 

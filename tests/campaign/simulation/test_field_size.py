@@ -3,10 +3,11 @@
 import pytest
 
 from campaign.fields.correlation import KERNELS, Correlation
+from campaign.fields.embedding import circulant_bytes
 from campaign.fields.reference_grid import ReferenceGrid
 from campaign.fields.samplers import CirculantSampler
 from campaign.scene import load_scene
-from campaign.simulation.field_size import circulant_bytes, field_size, perhaps_too_large, too_large
+from campaign.simulation.field_size import field_size, perhaps_too_large, too_large
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.3])
@@ -16,7 +17,7 @@ def test_the_sampler_takes_what_is_foreseen(kind, lengths, angle):
     """Within 10 %, by which a period is longer than needed to be fast to transform."""
     correlation, grid = Correlation(kind, *lengths, angle), ReferenceGrid(1.0, (15, 60))
     rows, columns = CirculantSampler(correlation, grid.shape, 1.0).torus
-    least, most = circulant_bytes(correlation, grid)
+    least, most = circulant_bytes(correlation, grid.shape, (1.0, 1.0))
     assert least <= 64 * rows * columns <= 1.1 * most
 
 
@@ -26,8 +27,9 @@ def test_the_sampler_takes_what_is_foreseen(kind, lengths, angle):
         ([], False, False),
         (["field.resolution=1 mm"], True, False),
         (["field.resolution=1e-8 m"], True, False),
-        (["field.horizontal=1000 m", "field.vertical=1000 m"], True, False),
+        (["field.horizontal=1000 m", "field.vertical=1000 m"], False, False),
         (["field.horizontal=300 m", "field.vertical=300 m"], False, True),
+        (["field.horizontal=1e4 m"], False, False),
         (["field.horizontal=1000 m", "field.vertical=1000 m", "field.correlation=separable-exponential"], False, False),
         (["field.sampler=cholesky", "field.resolution=5 cm"], True, False),
     ],
