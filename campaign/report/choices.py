@@ -1,9 +1,12 @@
 """The choices that an answer rests on, in words."""
 
+from math import degrees
+
 from campaign.fields.properties import BY_NAME
 from campaign.scene import Scene
+from campaign.scene.boring_data import boring_words
 from campaign.scene.ground_water import water_words
-from campaign.scene.layer_table import LASTING, NONE, LayerRow, layer_rows, told_by_layer
+from campaign.scene.layer_table import LASTING, NONE, LayerRow, layer_rows, told_by_layer, trend_words
 from campaign.scene.sections import Numerics, RandomField
 from campaign.scene.softening import known_rate, softening_rate, softening_words
 from campaign.terminal import listing
@@ -28,10 +31,10 @@ METHODS = {
 def modelling_choices(scene: Scene) -> dict[str, str]:
     """Return the choices that the answer rests on and that no interval contains, by name."""
     layers = {f"Layer: {row.name}": _layer(row) for row in layer_rows(scene)}
-    water = water_words(scene)
+    of_some = {"Strength": trend_words(scene), "Water": water_words(scene), "Borings": boring_words(scene)}
     return (
         layers
-        | ({"Water": water} if water else {})
+        | {name: words for name, words in of_some.items() if words}
         | {
             "Soil law": told_by_layer(scene, lambda layer: layer.soil.law),
             "How it begins": _beginning(scene.numerics),
@@ -71,7 +74,14 @@ def _correlation(scene: Scene) -> str:
     field, own = scene.field, [layer.name for layer in scene.layer if layer.field == "own"]
     kind = field.length_kind.replace("-", " ")
     words = f"{field.correlation}, {kind} {field.horizontal:g} m along and {field.vertical:g} m across the bedding"
+    if field.angle:
+        words += f", {_dip(field.angle)}"
     return f"{words}; a field of its own in {listing(own)}" if own else words
+
+
+def _dip(angle: float) -> str:
+    """Say how beds lie; slopes fall to the right."""
+    return f"which {'dips into' if angle > 0.0 else 'falls with'} the slope at {abs(degrees(angle)):.3g} degrees"
 
 
 def _cross_correlation(field: RandomField) -> str:

@@ -91,7 +91,8 @@ def _soil(scene: Scene) -> Iterator[Choice]:
         reason = why_not if measured & {*drawn} else ""
         yield Choice("random residual strength", "its mean", changes, why_not=reason)
     if any(soil.softening.law != "none" for soil in scene.soils):
-        yield Choice("softening", "none", _everywhere(scene, "soil.softening.law", "none"))
+        reason = why_not if measured & {row.name for row in RESIDUALS} else ""
+        yield Choice("softening", "none", _everywhere(scene, "soil.softening.law", "none"), why_not=reason)
     if any(soil.dilation_angle > 0.0 for soil in scene.soils):
         yield Choice("dilation", "none", _everywhere(scene, "soil.dilation_angle", "0 deg"))
     modulus = scene.soil.young_modulus

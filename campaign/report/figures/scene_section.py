@@ -69,7 +69,7 @@ def scene_section(scene: Scene, look: FirstLook, strengths: Strengths, realizati
     )
     scale = SHARE * WIDTH / section.right
     # Text may go on beside the section, where the panels below have the bars of their colours.
-    placed = place_labels(_places(section), section.surface.height_at, scale, section.right / SHARE)
+    placed = place_labels(_places(section, scene), section.surface.height_at, scale, section.right / SHARE)
     sky = highest(placed, scale) + LEGEND / scale
     section = replace(section, top=max(section.top, sky))
     fields = [BY_NAME[name] for name in strengths.names]
@@ -117,7 +117,6 @@ def _borings(axes: Axes, scene: Scene, names: Sequence[str]) -> None:
             top = float(ground.height_at(np.array([boring.x]))[0])
             axes.plot([boring.x, boring.x], [min(own), top], color=BLACK, linewidth=1.2)
             axes.plot([boring.x] * len(own), own, "o", color=BLACK, markerfacecolor="white", markersize=4)
-            axes.annotate(boring.name, (boring.x, top), (0, 2), textcoords="offset points", ha="center", va="bottom")
 
 
 def _circles(axes: Axes, look: FirstLook) -> None:
@@ -139,11 +138,12 @@ def _circle(axes: Axes, circle: SlipCircle | None, colour: str, begin: float, st
     return axes.plot(x, circle.elevation(x), color=colour, linestyle=(begin, (5, 5)), label=label)
 
 
-def _places(section: Section) -> list[Label]:
-    """Return labels of the toe and of the places asked about."""
+def _places(section: Section, scene: Scene) -> list[Label]:
+    """Return labels of the toe, of the places asked about, and of borings."""
     toe = section.surface.toe[0]
     near = [("toe", f"x = {toe:.4g} m", toe, BLACK)]
     near += [(each.name, each.where, each.x[0], ORANGE) for each in section.receptors]
+    near += [(each.name, f"x = {each.x:g} m", each.x, GREY) for each in scene.boring]
     ground = section.surface.height_at(np.array([x for _, _, x, _ in near]))
     return [
         Label(x, float(y), f"{name}, {where}", colour, f"{name} at {x:.4g} m")

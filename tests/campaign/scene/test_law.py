@@ -65,3 +65,14 @@ def test_drucker_prager_ground_is_about_as_strong_as_mohr_coulomb_ground() -> No
         for law in ("mohr-coulomb", "drucker-prager")
     ]
     assert moved[1] == pytest.approx(moved[0], rel=0.1)
+
+
+def test_what_an_answer_rests_on_knows_beds_trends_and_borings() -> None:
+    """An angle above 0 turns the horizontal axis towards the right, where the slope falls: the beds dip into it."""
+    boring = 'boring=[{name="B1", x="10 m", cohesion=[["2 m", "30 kPa"]]}]'
+    told = modelling_choices(load_scene("ma2023", ["field.angle=20 deg", "soil.cohesion.gradient=1 kPa/m", boring]))
+    assert told["Correlation"].endswith("2 m across the bedding, which dips into the slope at 20 degrees")
+    assert told["Strength"].startswith("The mean peak cohesion grows by 1 kPa per metre of depth")
+    assert told["Borings"].startswith("1, with 1 of peak cohesion")
+    out = modelling_choices(load_scene("ma2023", ["field.angle=-20 deg"]))["Correlation"]
+    assert out.endswith("which falls with the slope at 20 degrees")

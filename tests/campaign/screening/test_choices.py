@@ -17,6 +17,7 @@ ALL = [
     "field.resolution=0.5 m",
 ]
 ROAD = 'receptor=[{name = "road", x = "46 m"}]'
+BORED = [*ALL, 'boring=[{name="B1", x="70 m", cohesion=[["2 m", "20 kPa"]], cohesion_residual=[["1 m", "10 kPa"]]}]']
 PROFILE = [
     'geometry={surface = [["0 m", "19 m"], ["20 m", "19 m"], ["35 m", "4 m"], ["75 m", "4 m"]]}',
     *ALL,
@@ -43,7 +44,7 @@ def test_a_scene_with_every_choice_is_screened_for_each():
     assert len(by_name(load_scene("ma2023", ALL))) == 14
 
 
-@pytest.mark.parametrize("overrides", [[], ALL, PROFILE, [*PROFILE, ROAD], [*ALL, ROAD]])
+@pytest.mark.parametrize("overrides", [[], ALL, BORED, PROFILE, [*PROFILE, ROAD], [*ALL, ROAD]])
 def test_every_choice_leaves_a_valid_scene_with_another_identity(overrides):
     scene = load_scene("ma2023", overrides)
     for choice in choices_of(scene):
