@@ -5,7 +5,7 @@ Arguments are those of ``step``; ``nodal_velocity`` (rows, 2, columns) in m/s.
 
 from typing import Any
 
-from solver._jit import chosen_by_type, inlined, sweep
+from solver._jit import allocating, chosen_by_type, inlined, sweep
 from solver.cells import add_to_pool, average, deposit_pool, no_pool, read, shares_of, volumes_in
 from solver.lanes import splat, total, where
 from solver.leavers import settle_all
@@ -149,7 +149,7 @@ def yield_each(tiles, grid, ledger, laws, scheme, gravity, dt):
     return settle_and_pool(tiles, grid)
 
 
-@inlined
+@allocating
 def velocity_to_deform_with(grid, scheme):
     """Return the nodal velocity (rows, 2, columns) in m/s of operation 5."""
     return grid.velocity if scheme.stress_update == USL else grid.remapped

@@ -23,12 +23,12 @@ smoothed alike (``internal_length`` says how much), and their quotient is read b
 
 import numpy as np
 
-from solver._jit import sweep
+from solver._jit import allocating
 from solver.constants import LANE_COUNT
 from solver.lanes import load, store
 
 
-@sweep
+@allocating
 def smooth(sums, weights):
     """Convolve sums over cells with the filter along both axes, in place; beyond the grid there is nothing.
 

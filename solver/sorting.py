@@ -6,7 +6,7 @@ are copied in the order of the tiles.
 
 import numpy as np
 
-from solver._jit import inlined, kernel, sweep
+from solver._jit import allocating, inlined, kernel
 from solver.constants import LANE_COUNT
 from solver.leavers import settle_next
 from solver.tiles import (
@@ -83,7 +83,7 @@ def _fill_tiles(particles, grid, tiles):
     sorted_tiles(tiles, grid)
 
 
-@sweep
+@allocating
 def sorted_tiles(tiles, grid):
     """Return the same particles in blocks in the order of the tiles, without holes."""
     used = 0
@@ -113,7 +113,7 @@ def sorted_tiles(tiles, grid):
     return Tiles(tiles.spare, tiles.blocks, tiles.following, tiles.first, tiles.tile, tiles.leavers, tiles.counts)
 
 
-@sweep
+@allocating
 def sort_if_due(tiles, grid):
     """Return the tiles for the next step: sorted now and then, and where the room for blocks runs out."""
     is_due = tiles.counts[STEPS] == STEPS_BETWEEN_SORTS or 2 * tiles.counts[USED] > tiles.blocks.shape[0]

@@ -1,4 +1,4 @@
-"""Squares of a lattice that a surface cuts: the area and the centre of what lies below it, exact for a polyline."""
+"""Squares of a lattice that a surface cuts, and the area of what lies below it, exact for a polyline."""
 
 from itertools import pairwise
 from typing import NamedTuple
@@ -7,8 +7,8 @@ import numpy as np
 
 from solver.surface import Surface
 
-LEAST_SHARE = 0.25
-"""Of a square: what is less is added to the neighbour that is fullest, because light particles bounce."""
+LEAST_SHARE = 0.5
+"""Of a square that is a particle. What is less goes to the fullest neighbour: light particles bounce."""
 
 
 class Squares(NamedTuple):
@@ -17,12 +17,10 @@ class Squares(NamedTuple):
     column: np.ndarray  # (n,) from the left wall
     row: np.ndarray  # (n,) from the base
     area: np.ndarray  # (n,) m2
-    x: np.ndarray  # (n,) m, of the centroid
-    y: np.ndarray  # (n,) m
 
 
 def filled_squares(surface: Surface, side: float, columns: int) -> Squares:
-    """Return all squares with ground in them, those with little of it joined to their neighbours.
+    """Return the squares with half of their area below the surface or more, and all of the ground shared among them.
 
     Parameters
     ----------
@@ -39,25 +37,24 @@ def filled_squares(surface: Surface, side: float, columns: int) -> Squares:
 def _cut(surface: Surface, side: float, columns: int) -> Squares:
     """Return the squares below the surface, and of those it cuts the part below."""
     pieces = _pieces(surface, side, columns)
-    lowest = np.full(columns, np.inf)
-    highest = np.zeros(columns)
+    lowest, highest = np.full(columns, np.inf), np.zeros(columns)
     np.minimum.at(lowest, pieces.column, np.minimum(pieces.left_y, pieces.right_y))
     np.maximum.at(highest, pieces.column, np.maximum(pieces.left_y, pieces.right_y))
     whole = np.maximum(np.floor(lowest / side + 1e-9), 0).astype(int)
-    last = np.ceil(highest / side - 1e-9).astype(int)
-    below = Squares(*_whole(whole, side))
+    rows = np.maximum(np.ceil(highest / side - 1e-9).astype(int), whole)
+    column, row = np.repeat(np.arange(columns), whole), _counted(whole)
     # Each piece of the surface meets the rows from the last whole one to the highest of its column.
-    counts = np.maximum(last - whole, 0)[pieces.column]
+    counts = (rows - whole)[pieces.column]
     which = np.repeat(np.arange(pieces.column.size), counts)
-    row = whole[pieces.column[which]] + _counted(counts)
-    moments = _moments(_Pieces(*(each[which] for each in pieces)), row * side, side)
-    key = pieces.column[which] * (last.max() + 1) + row
-    square, member = np.unique(key, return_inverse=True)
-    area, first_x, first_y = (np.bincount(member, weights=each, minlength=square.size) for each in moments)
-    has_ground = area > 1e-9 * side**2
-    area, first_x, first_y, square = (each[has_ground] for each in (area, first_x, first_y, square))
-    cut = Squares(square // (last.max() + 1), square % (last.max() + 1), area, first_x / area, first_y / area)
-    return Squares(*map(np.concatenate, zip(below, cut, strict=True)))
+    met = whole[pieces.column[which]] + _counted(counts)
+    area = _areas(_Pieces(*(each[which] for each in pieces)), met * side, side)
+    square, member = np.unique(pieces.column[which] * rows.max() + met, return_inverse=True)
+    areas = np.bincount(member, weights=area, minlength=square.size)
+    return Squares(
+        np.concatenate([column, square // rows.max()]),
+        np.concatenate([row, square % rows.max()]),
+        np.concatenate([np.full(column.size, side**2), areas]),
+    )
 
 
 class _Pieces(NamedTuple):
@@ -84,21 +81,14 @@ def _pieces(surface: Surface, side: float, columns: int) -> _Pieces:
     return _Pieces((middle / side).astype(int), left, right, at_left, at_right)
 
 
-def _whole(rows: np.ndarray, side: float) -> tuple[np.ndarray, ...]:
-    """Return whole squares, so many in each column."""
-    column, row = np.repeat(np.arange(rows.size), rows), _counted(rows)
-    return column, row, np.full(column.size, side**2), (column + 0.5) * side, (row + 0.5) * side
-
-
 def _counted(counts: np.ndarray) -> np.ndarray:
     """Return 0, 1, ... for each count, one after the other."""
     ends = np.cumsum(counts)
-    numbers: np.ndarray = np.arange(counts.sum()) - np.repeat(ends - counts, counts)
-    return numbers
+    return np.arange(counts.sum()) - np.repeat(ends - counts, counts)
 
 
-def _moments(pieces: _Pieces, bottom: np.ndarray, side: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return area, and area times x and y, of the ground under pieces of the surface in rows from ``bottom`` (m) on.
+def _areas(pieces: _Pieces, bottom: np.ndarray, side: float) -> np.ndarray:
+    """Return the area in m2 of the ground under pieces of the surface, in rows from ``bottom`` (m) on.
 
     Its thickness in the row, clip(surface - bottom, 0, side), is linear between the places where the surface enters
     and leaves the row.
@@ -107,33 +97,25 @@ def _moments(pieces: _Pieces, bottom: np.ndarray, side: float) -> tuple[np.ndarr
     safe = np.where(rise == 0.0, 1.0, rise)
     crossings = [np.where(rise == 0.0, 0.0, (level - pieces.left_y) / safe) for level in (bottom, bottom + side)]
     ends = np.sort(np.clip([np.zeros_like(width), *crossings, np.ones_like(width)], 0.0, 1.0), axis=0)
-    area, first_x, first_y = (np.zeros_like(width) for _ in range(3))
+    area = np.zeros_like(width)
     for a, b in pairwise(ends):
-        x_a, x_b = pieces.left_x + a * width, pieces.left_x + b * width
-        t_a, t_b = (np.clip(pieces.left_y + share * rise - bottom, 0.0, side) for share in (a, b))
-        part = 0.5 * (x_b - x_a) * (t_a + t_b)
-        area += part
-        first_x += (x_b - x_a) * (x_a * (2.0 * t_a + t_b) + x_b * (t_a + 2.0 * t_b)) / 6.0
-        first_y += bottom * part + (x_b - x_a) * (t_a**2 + t_a * t_b + t_b**2) / 6.0
-    return area, first_x, first_y
+        thickness = (np.clip(pieces.left_y + share * rise - bottom, 0.0, side) for share in (a, b))
+        area += 0.5 * (b - a) * width * sum(thickness)
+    return area
 
 
 def _without_slivers(squares: Squares, side: float) -> Squares:
-    """Join squares with little ground to the fullest of their four neighbours, which keeps mass and its centre."""
+    """Give the ground of squares with little of it to the fullest of their four neighbours."""
     number = {place: k for k, place in enumerate(zip(squares.column.tolist(), squares.row.tolist(), strict=True))}
-    area, first_x, first_y = squares.area.copy(), squares.area * squares.x, squares.area * squares.y
+    area = squares.area.copy()
     for k in np.argsort(area, kind="stable"):
-        if not 0.0 < area[k] < LEAST_SHARE * side**2:
-            continue
+        if area[k] > (LEAST_SHARE - 1e-9) * side**2:
+            break
         column, row = int(squares.column[k]), int(squares.row[k])
         beside = [(column, row - 1), (column - 1, row), (column + 1, row), (column, row + 1)]
         neighbours = [number[place] for place in beside if place in number and area[number[place]] > 0.0]
         if neighbours:
-            fullest = max(neighbours, key=area.__getitem__)
-            for each in (area, first_x, first_y):
-                each[fullest] += each[k]
-                each[k] = 0.0
+            area[max(neighbours, key=area.__getitem__)] += area[k]
+            area[k] = 0.0
     kept = area > 0.0
-    return Squares(
-        squares.column[kept], squares.row[kept], area[kept], first_x[kept] / area[kept], first_y[kept] / area[kept]
-    )
+    return Squares(squares.column[kept], squares.row[kept], area[kept])

@@ -169,14 +169,14 @@ def test_particles_come_sorted_by_cell():
 
 
 def drawn_moments(points):
-    """Return area, and area times the centroid, of the ground under a polyline, by the formulas of a trapezium."""
+    """Return the area, and the centroid, of the ground under a polyline, by the formulas of a trapezium."""
     area = first_x = first_y = 0.0
     for (x_a, y_a), (x_b, y_b) in itertools.pairwise(points):
         width = x_b - x_a
         area += width * (y_a + y_b) / 2.0
         first_x += width * (x_a * (2.0 * y_a + y_b) + x_b * (y_a + 2.0 * y_b)) / 6.0
         first_y += width * (y_a**2 + y_a * y_b + y_b**2) / 6.0
-    return area, first_x, first_y
+    return area, first_x / area, first_y / area
 
 
 ROUGH = [(0, 4.13), (2.2, 4.9), (5.7, 4.9), (5.7, 3.31), (8.05, 2.0), (9.0, 1.07), (9.0, 0.4), (11.3, 0.72), (14, 0.61)]
@@ -186,19 +186,30 @@ WEDGE = [(0, 6.2), (3, 6.2), (9.2, 0.001), (14, 0.001)]
 
 @pytest.mark.parametrize("particles_per_cell", [1, 4, 9])
 @pytest.mark.parametrize("points", [ROUGH, CLIFF, WEDGE])
-def test_cut_particles_have_the_mass_and_the_centre_that_are_drawn(points, particles_per_cell):
+def test_cut_particles_have_the_mass_that_is_drawn(points, particles_per_cell):
     ground = fill_to_surface(surface(*points), 0.5, particles_per_cell, 2000.0)
-    found = ground.volume.sum(), np.sum(ground.volume * ground.x), np.sum(ground.volume * ground.y)
-    assert found == pytest.approx(drawn_moments(points), rel=1e-12)
-    assert ground.mass.sum() == pytest.approx(2000.0 * found[0], rel=1e-12)
+    area, x, y = drawn_moments(points)
+    assert ground.volume.sum() == pytest.approx(area, rel=1e-12)
+    assert ground.mass.sum() == pytest.approx(2000.0 * area, rel=1e-12)
+    centre = np.average(ground.x, weights=ground.volume), np.average(ground.y, weights=ground.volume)
+    assert centre == pytest.approx((x, y), abs=0.02)
 
 
-def test_cut_particles_are_none_too_light_and_lie_below_the_surface():
-    line = surface(*ROUGH)
-    ground = fill_to_surface(line, 0.5, 4, 2000.0)
-    assert ground.volume.min() >= 0.25 * 0.25**2
-    assert ground.volume.max() < 2.0 * 0.25**2
-    assert np.all(ground.y < line.height_at(ground.x))
+def test_cut_particles_are_none_too_light_and_stand_on_the_lattice():
+    ground = fill_to_surface(surface(*ROUGH), 0.5, 4, 2000.0)
+    assert ground.volume.min() > 0.499 * 0.25**2
+    assert ground.volume.max() < 2.5 * 0.25**2
+    for places in (ground.x, ground.y):
+        np.testing.assert_allclose(places / 0.25 % 1.0, 0.5, atol=1e-9)
+
+
+def test_squares_that_are_half_full_are_particles():
+    """At 45 degrees through the corners of the lattice: 60 squares along the face of 15 m, whatever the rounding."""
+    whole, cut = (fill(PAPER, 0.5, 4, 2000.0) for fill in (fill_ground, fill_to_surface))
+    half = np.isclose(cut.volume, 0.5 * 0.25**2)
+    assert half.sum() == 60 == cut.x.size - whole.x.size
+    np.testing.assert_allclose(PAPER.height_at(cut.x[half]), cut.y[half])
+    assert cut.volume.sum() == pytest.approx(PAPER.area, rel=1e-12)
 
 
 def test_level_ground_on_the_lattice_is_the_same_either_way():
