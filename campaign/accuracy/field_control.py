@@ -38,6 +38,8 @@ def deviations(field_maps: Matrix, scene: Scene) -> Matrix:
     array (n, m)
         Of the boxes in which the property is random.
     """
+    if not random_properties(scene):
+        return np.empty((len(field_maps), 0))
     mean, sigma = _distribution(scene)
     has_value = np.isfinite(field_maps).any(axis=0)
     return np.asarray(((field_maps - mean) / sigma)[:, has_value])

@@ -14,6 +14,8 @@ def refuse_unaffordable(scene: Scene) -> None:
     ------
     SceneError
         With every reason.
+    SamplerError
+        If data of borings lie too close together.
     """
     complaints = refusals(scene, memory())
     if not complaints:
@@ -22,3 +24,7 @@ def refuse_unaffordable(scene: Scene) -> None:
         complaints = [complaint] if (complaint := too_large(field_size(scene))) else []
     if complaints:
         raise SceneError(sentences(complaints, scene))
+    if scene.boring:
+        from campaign.simulation.scene_sampler import refuse_crowded_data
+
+        refuse_crowded_data(scene)

@@ -19,6 +19,7 @@ from campaign.fields.samplers import CirculantSampler, KroneckerSampler, Sampler
 from campaign.fields.strengths import LayerSoil, StrengthSampler
 from campaign.fields.stretched import LARGEST_EMBEDDING, StretchedSampler
 from campaign.scene.boring_data import Measured, measured_in, standard_value
+from campaign.scene.ground_surface import surface_of
 from campaign.scene.layers import interfaces_of, layer_at, layer_scenes, tops_of
 from campaign.scene.scene import Scene
 from campaign.scene.sections import RandomField
@@ -91,6 +92,22 @@ def data_of(scene: Scene, grid: ReferenceGrid, cells: NDArray[np.bool_]) -> dict
         found.setdefault(soil.field, []).append(datum)
     correlation = correlation_of(scene.field)
     return {number: Conditioning(merged(data), correlation, grid, cells) for number, data in found.items()}
+
+
+def refuse_crowded_data(scene: Scene) -> None:
+    """Refuse borings of which some values follow from the others, before anything else is built.
+
+    Raises
+    ------
+    SamplerError
+        If there are such.
+    """
+    surface = surface_of(scene.geometry)
+    grid = reference_grid(scene, surface.width, surface.top)
+    cells = np.zeros(grid.shape, dtype=bool)
+    for datum in measured_in(scene):
+        cells[_cell(grid, datum)] = True
+    data_of(scene, grid, cells)
 
 
 def gaussian_means(scene: Scene, grid: ReferenceGrid) -> dict[int, dict[str, Array]]:

@@ -59,3 +59,8 @@ def test_deviations_have_mean_zero_and_are_in_standard_deviations():
     assert found.shape == (20_000, 2)
     np.testing.assert_allclose(found[:, 0], gaussian[:, 0, 0], atol=1e-12)
     np.testing.assert_allclose(found[:, 1], -gaussian[:, 0, 0], atol=1e-12)
+
+
+def test_where_nothing_is_random_there_are_no_deviations():
+    certain = load_scene("ma2023", ["soil.cohesion.cov=0", "soil.friction_angle.cov=0"])
+    assert deviations(np.empty((5, 0, 0, 0)), certain).shape == (5, 0)

@@ -13,6 +13,7 @@ from campaign.scene.ground_surface import surface_of
 from campaign.seeds import BASELINE
 from campaign.simulation.field_summary import box_map
 from campaign.simulation.ground import strengths_of
+from campaign.simulation.scene_sampler import refuse_crowded_data
 
 DRAWS = 500
 COARSE = ("numerics.cell=2 m", "field.resolution=0.5 m")
@@ -134,7 +135,7 @@ def test_data_that_follow_from_others_are_refused():
     smooth = "field.correlation=squared-exponential", "field.vertical=20 m"
     dense = f'boring=[{{name="CPT", x="10 m", cohesion=[{values}]}}]'
     with pytest.raises(SamplerError, match="some follow from the others; give the borings a noise"):
-        strengths_of(bored(*smooth, borings=dense), 0)
+        refuse_crowded_data(bored(*smooth, borings=dense))
     strengths_of(bored(*smooth, borings=dense.replace('name="CPT"', 'name="CPT", noise=0.05')), 0)
 
 
