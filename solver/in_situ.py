@@ -16,6 +16,7 @@ import numpy as np
 from solver import observables
 from solver.balance import felt_share, unbalanced_share
 from solver.constants import STANDARD_GRAVITY
+from solver.laws.registry import unyielding
 from solver.method import Method
 from solver.model import Model
 from solver.overburden import overburden
@@ -23,7 +24,6 @@ from solver.particles import Particles
 from solver.pore_pressure import wet_ground_of
 from solver.scheme import scheme_of
 from solver.slide import PAPER
-from solver.softening import NO_SOFTENING
 from solver.sorting import fill_tiles, read_tiles
 from solver.step import allocate_workspace, take_steps
 from solver.timestep import stable_step
@@ -56,7 +56,7 @@ def lay_geostatic_stress(particles: Particles, model: Model) -> None:
 
 def loading_model(model: Model) -> Model:
     """Return the model with all that its in-situ state depends on, and standard values for what matters later only."""
-    elastic = tuple(each._replace(law=each.law._replace(softening=NO_SOFTENING)) for each in model.materials)
+    elastic = tuple(each._replace(law=unyielding(each.law)) for each in model.materials)
     return model._replace(
         materials=elastic,
         courant=min(model.courant, MOST_COURANT),

@@ -2,7 +2,7 @@
 
 from math import degrees
 
-from campaign.fields.properties import BY_NAME
+from campaign.fields.properties import BY_NAME, PRESSURE
 from campaign.scene import Scene
 from campaign.scene.boring_data import boring_words
 from campaign.scene.ground_water import water_words
@@ -36,7 +36,7 @@ def modelling_choices(scene: Scene) -> dict[str, str]:
         layers
         | {name: words for name, words in of_some.items() if words}
         | {
-            "Soil law": told_by_layer(scene, lambda layer: layer.soil.law),
+            "Soil law": told_by_layer(scene, _law),
             "How it begins": _beginning(scene.numerics),
             "Softening": told_by_layer(scene, _softening),
             "Against too stiff yielding": LOCKING[scene.numerics.locking],
@@ -45,6 +45,11 @@ def modelling_choices(scene: Scene) -> dict[str, str]:
             "Cross-correlation": _cross_correlation(scene.field),
         }
     )
+
+
+def _law(scene: Scene) -> str:
+    cutoff = scene.soil.tension_cutoff
+    return scene.soil.law if cutoff is None else f"{scene.soil.law}, tension up to {PRESSURE.show(cutoff)}"
 
 
 def _layer(row: LayerRow) -> str:

@@ -3,7 +3,7 @@
 from typing import Any, TypeVar
 
 from campaign.scene.alternatives import replaced_by
-from campaign.scene.rules.soil import FRICTIONLESS
+from campaign.scene.rules.soil import FRICTIONLESS, WITH_CUTOFF
 from campaign.scene.sections import FrictionAngle, Layer, SceneFile, Section, Soil
 
 T = TypeVar("T", bound=Section)
@@ -26,12 +26,15 @@ def written_out(scene: SceneFile) -> list[dict[str, Any]]:
 def soil_of(layer: Layer, above: Soil) -> Soil:
     """Return the soil of a layer with all that it leaves out as in another soil.
 
-    A law without friction takes over neither friction nor dilation angle, and a rate no slip to residual strength.
+    A law without friction takes over neither friction nor dilation angle, one without a cut-off of tension no cut-off,
+    and a rate no slip to residual strength.
     """
     own = {name: value for name, value in layer if name in layer.model_fields_set & Soil.model_fields.keys()}
     law = own.get("law", above.law)
     if law == FRICTIONLESS:
         above = above.model_copy(update={"friction_angle": None, "dilation_angle": 0.0})
+    if law != WITH_CUTOFF:
+        above = above.model_copy(update={"tension_cutoff": None})
     return _with(above, own, ("soil",))
 
 

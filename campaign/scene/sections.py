@@ -111,7 +111,8 @@ class Softening(Section):
 class Soil(Section):
     """Constitutive law, unit weight in N/m3, Young's modulus in Pa, dilation angle in rad, and strength.
 
-    `saturated_unit_weight` is that below the water table.
+    `saturated_unit_weight` is that below the water table; `tension_cutoff` is what the law "mohr-coulomb" bears in
+    tension at most, in Pa, where the cohesion has its peak.
     """
 
     law: Literal["mohr-coulomb", "drucker-prager", "tresca"] = "mohr-coulomb"
@@ -120,6 +121,7 @@ class Soil(Section):
     young_modulus: PositivePressure
     poisson_ratio: Annotated[float, must("be at least 0 and below 0.5", lambda ratio: 0.0 <= ratio < 0.5)]
     dilation_angle: Annotated[Angle, NOT_NEGATIVE] = 0.0
+    tension_cutoff: Annotated[Pressure, NOT_NEGATIVE] | None = None
     cohesion: Cohesion
     friction_angle: FrictionAngle | None = None
     softening: Softening

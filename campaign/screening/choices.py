@@ -26,6 +26,9 @@ from solver.water import NO_WATER
 SOFTER = 4.0
 """By which Young's modulus is divided: steps become twice as long."""
 
+MORE_THAN_ANY_TENSION = "1 GPa"
+"""A cut-off beyond c cot(phi), which is none."""
+
 PEAKS = ("friction_angle", "cohesion")
 
 
@@ -95,6 +98,8 @@ def _soil(scene: Scene) -> Iterator[Choice]:
         yield Choice("softening", "none", _everywhere(scene, "soil.softening.law", "none"), why_not=reason)
     if any(soil.dilation_angle > 0.0 for soil in scene.soils):
         yield Choice("dilation", "none", _everywhere(scene, "soil.dilation_angle", "0 deg"))
+    if any(soil.tension_cutoff is not None for soil in scene.soils):
+        yield Choice("cut-off of tension", "none", _everywhere(scene, "soil.tension_cutoff", MORE_THAN_ANY_TENSION))
     modulus = scene.soil.young_modulus
     instead = shown_in_unit(modulus / SOFTER, PRESSURE)
     yield Choice(f"modulus {shown_in_unit(modulus, PRESSURE)}", instead, with_stiffness(scene, 1 / SOFTER))

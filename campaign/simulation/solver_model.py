@@ -13,7 +13,7 @@ from campaign.scene.scene import Scene
 from campaign.scene.softening import softening_rate
 from solver.constants import STANDARD_GRAVITY
 from solver.grid import whole_cells
-from solver.laws.registry import Constants, make_law
+from solver.laws.registry import NO_CUTOFF, Constants, make_law
 from solver.materials import Material
 from solver.method import Method
 from solver.model import Model
@@ -21,6 +21,9 @@ from solver.slide import SlideCriteria
 from solver.softening import Softening
 
 Array = NDArray[np.float64]
+
+CUT_OFF = "mohr-coulomb-tension"
+"""The law of soil with a cut-off of tension."""
 
 
 def model_of(scene: Scene) -> Model:
@@ -46,9 +49,10 @@ def material_of(scene: Scene) -> Material:
     """Return what the [soil] of a scene is made of."""
     soil = scene.soil
     softening = Softening(softening_rate(scene), soil.softening.law == "linear")
-    constants = Constants(soil.young_modulus, soil.poisson_ratio, soil.dilation_angle, softening)
+    cutoff = NO_CUTOFF if soil.tension_cutoff is None else soil.tension_cutoff
+    constants = Constants(soil.young_modulus, soil.poisson_ratio, soil.dilation_angle, softening, cutoff)
     saturated = None if soil.saturated_unit_weight is None else soil.saturated_unit_weight / STANDARD_GRAVITY
-    law = make_law(soil.law, constants)
+    law = make_law(soil.law if soil.tension_cutoff is None else CUT_OFF, constants)
     return Material(soil.unit_weight / STANDARD_GRAVITY, soil.poisson_ratio, law, saturated)
 
 

@@ -120,13 +120,20 @@ def drops_in_return(s1, s2, s3, inverse_stiffness, c_cos_phi, sin_phi, law):
 
 
 @inlined
+def inverses(stress, sin_phi, law):
+    """Return the inverse of the stiffness of the plane, and of the radius of Mohr's circle in the plane (1/Pa)."""
+    stiffness, radius = stiffness_of_plane(sin_phi, law)[0], max(in_plane(stress)[2], SMALLEST_RADIUS)
+    inverse = 1.0 / (stiffness * radius)  # of both at once: a division takes as long as ten products
+    return inverse * radius, inverse * stiffness
+
+
+@inlined
 def return_stress(stress, c_cos_phi, sin_phi, law):
     """Return ``(xx, yy, zz, xy, plastic strain increment)`` for a trial stress; stresses in Pa."""
     s1, s2, s3 = principal_stresses(stress)
-    stiffness, radius = stiffness_of_plane(sin_phi, law)[0], max(in_plane(stress)[2], SMALLEST_RADIUS)
-    inverse = 1.0 / (stiffness * radius)  # of both at once: a division takes as long as ten products
-    drop_1, drop_2, drop_3, plastic_strain = drops_in_return(s1, s2, s3, inverse * radius, c_cos_phi, sin_phi, law)
-    xx, yy, zz, xy = relaxed(stress, drop_1, drop_2, drop_3, inverse * stiffness)
+    inverse_stiffness, inverse_radius = inverses(stress, sin_phi, law)
+    drop_1, drop_2, drop_3, plastic_strain = drops_in_return(s1, s2, s3, inverse_stiffness, c_cos_phi, sin_phi, law)
+    xx, yy, zz, xy = relaxed(stress, drop_1, drop_2, drop_3, inverse_radius)
     return xx, yy, zz, xy, plastic_strain
 
 

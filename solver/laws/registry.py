@@ -4,7 +4,9 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
 from solver._jit import chosen_by_type, inlined
-from solver.softening import Softening
+from solver.softening import NO_SOFTENING, Softening
+
+NO_CUTOFF = 1e30  # Pa, tension that no ground bears
 
 
 class Law(Protocol):
@@ -34,6 +36,7 @@ class Constants(NamedTuple):
     poisson_ratio: float
     dilation_angle: float  # rad
     softening: Softening
+    tension_cutoff: float = NO_CUTOFF  # Pa
 
 
 _MAKERS: dict[str, Callable[[Constants], Law]] = {}
@@ -59,6 +62,12 @@ def constitutive_law(name: str, parameters: type, make: Callable[[Constants], An
         return function
 
     return enter
+
+
+def unyielding(law: Law) -> Law:
+    """Return the law of ground whose particles have more strength than they need: it neither softens nor cracks."""
+    kept = law._replace(softening=NO_SOFTENING)
+    return kept._replace(tension_cutoff=NO_CUTOFF) if hasattr(kept, "tension_cutoff") else kept
 
 
 def law_names() -> list[str]:

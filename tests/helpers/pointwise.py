@@ -8,7 +8,7 @@ from solver._jit import kernel
 from solver.hooke import elastic_increment
 from solver.kinematics import rotate_stress
 from solver.laws import mohr_coulomb
-from solver.laws.registry import Constants, make_law, update_stress
+from solver.laws.registry import NO_CUTOFF, Constants, make_law, update_stress
 from solver.softening import Softening, Strength, cosine, exp_decay, sine
 
 COHESION = 20e3  # Pa
@@ -20,9 +20,9 @@ def soil_of(psi, rate=0.0, is_linear=False):
     return law_of("mohr-coulomb", psi, rate, is_linear)
 
 
-def law_of(name, psi=0.0, rate=0.0, is_linear=False):
+def law_of(name, psi=0.0, rate=0.0, is_linear=False, tension_cutoff=NO_CUTOFF):
     """Return the law of that name for the same soil."""
-    return make_law(name, Constants(70e6, 0.35, np.radians(psi), Softening(rate, is_linear)))
+    return make_law(name, Constants(70e6, 0.35, np.radians(psi), Softening(rate, is_linear), tension_cutoff))
 
 
 def strength_of(cohesion, friction_angle):

@@ -11,7 +11,7 @@ VERIFICATION = Path(__file__).parents[1] / "verification"
 LADDER = {
     "Weights": ("weights",),
     "Conservation": ("conservation", "free_block", "rotation"),
-    "Soil law": ("return_regions", "mohr_coulomb_paths"),
+    "Soil law": ("return_regions", "mohr_coulomb_paths", "tension_cutoff"),
     "Elastic bodies": (
         "self_weight_column",
         "sudden_gravity",

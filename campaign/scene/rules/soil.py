@@ -16,6 +16,9 @@ EXTREME_QUANTILE = 5.5
 FRICTIONLESS = "tresca"
 """The law without a friction angle."""
 
+WITH_CUTOFF = "mohr-coulomb"
+"""The law that may have a cut-off of tension."""
+
 SOFTENING_LAW = "soil.softening.law"
 
 NO_STRENGTH = "soil without cohesion and friction is a liquid, which stands at no slope; give one of both"
@@ -65,6 +68,13 @@ def _some_strength(*means_and_gradients: float | None) -> str | None:
 @RULES.on("soil.cohesion.mean", "soil.law", "soil.cohesion.gradient")
 def _some_undrained_strength(cohesion: float, law: str, gradient: float | None) -> str | None:
     return NO_STRENGTH if law == FRICTIONLESS and not cohesion and not gradient else None
+
+
+@RULES.on("soil.tension_cutoff", "soil.law")
+def _tension_cutoff(cutoff: float | None, law: str) -> str | None:
+    if cutoff is None or law == WITH_CUTOFF:
+        return None
+    return f'only the law "{WITH_CUTOFF}" has one; leave it out'
 
 
 @RULES.on("soil.dilation_angle", "soil.law")

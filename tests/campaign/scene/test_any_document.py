@@ -50,6 +50,7 @@ POWERS = st.integers(-12, 12)
 OF_A_SITE: list[tuple[Any, ...]] = [
     *(("soil", "cohesion", name) for name in ("gradient", "residual_gradient", "residual_share")),
     ("soil", "friction_angle", "gradient"),
+    ("soil", "tension_cutoff"),
     *(("boring", 0, name) for name in ("name", "x", "by", "noise", "cohesion", "friction_angle")),
     ("boring",),
 ]

@@ -9,6 +9,10 @@ from scene_complaints import FRICTION, UNDRAINED, complaint, complaints, written
 from campaign.report.choices import modelling_choices
 from campaign.scene import load_scene
 from campaign.simulation.ground import prepare
+from campaign.simulation.solver_model import model_of
+from solver.in_situ import loading_model
+from solver.laws.mohr_coulomb import MohrCoulomb
+from solver.laws.registry import NO_CUTOFF
 
 COARSE = ("numerics.cell=2 m", "numerics.end_time=1 s")
 
@@ -39,6 +43,27 @@ def test_the_other_laws_need_one(tmp_path: Path, law: str) -> None:
 def test_undrained_ground_does_not_dilate(tmp_path: Path) -> None:
     message = complaint("soil.dilation_angle=1 deg", source=written(tmp_path, *UNDRAINED))
     assert "undrained soil keeps its volume; use 0 deg" in message
+
+
+def test_a_cutoff_of_tension_belongs_to_mohr_coulomb(tmp_path: Path) -> None:
+    cracked = load_scene("ma2023", ["soil.tension_cutoff=0 kPa"])
+    assert model_of(cracked).laws[0].tension_cutoff == 0.0
+    assert modelling_choices(cracked)["Soil law"] == "mohr-coulomb, tension up to 0 kPa"
+    assert type(model_of(load_scene("ma2023")).laws[0]) is MohrCoulomb
+    refused = complaint("soil.law=drucker-prager", "soil.tension_cutoff=5 kPa")
+    assert 'only the law "mohr-coulomb" has one; leave it out' in refused
+    assert "must not be negative" in complaint("soil.tension_cutoff=-1 kPa")
+    clay = 'layer=[{name="clay", top="3 m", law="tresca"}, {name="sand", top="2 m"}]'
+    crust, undrained, sand = load_scene("ma2023", ["soil.tension_cutoff=2 kPa", clay]).soils
+    assert (crust.tension_cutoff, undrained.tension_cutoff, sand.tension_cutoff) == (2e3, None, 2e3)
+
+
+def test_the_ground_at_rest_bears_any_tension() -> None:
+    """It is elastic, the same with a cut-off and without."""
+    models = (model_of(load_scene("ma2023", more)) for more in ([], ["soil.tension_cutoff=0 kPa"]))
+    laws = [loading_model(model).laws[0] for model in models]
+    assert laws[1].tension_cutoff == NO_CUTOFF
+    assert laws[0].bulk_modulus == laws[1].bulk_modulus
 
 
 def test_a_scene_from_before_the_law_was_a_key_is_the_same_scene(tmp_path: Path) -> None:
