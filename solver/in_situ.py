@@ -43,12 +43,11 @@ class NotSettledError(RuntimeError):
 
 
 def lay_geostatic_stress(particles: Particles, model: Model) -> None:
-    """Start from ``s_yy = u + uplift - weight above``, ``s_xx = s_zz = nu / (1 - nu) s_yy``; true of level ground."""
+    """Start from ``s_yy = u + uplift - weight above``, ``s_xx = s_zz = K_0 s_yy``; true of level ground."""
     x, y = particles.x, particles.y
     lifted = model.water.uplift(model.surface.height_at(x), y)
     vertical = particles.pore_pressure + lifted - overburden(model, x, y)
-    poisson_ratio = np.array([material.poisson_ratio for material in model.materials])[particles.material]
-    horizontal = poisson_ratio / (1.0 - poisson_ratio) * vertical
+    horizontal = np.array([material.horizontal_share for material in model.materials])[particles.material] * vertical
     particles.stress_yy[:] = vertical
     particles.stress_xx[:] = horizontal
     particles.stress_zz[:] = horizontal

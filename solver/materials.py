@@ -26,6 +26,12 @@ class Material(NamedTuple):
     poisson_ratio: float
     law: Law
     saturated_density: float | None = None  # kg/m3, below the water table; None: the same
+    k0: float | None = None  # horizontal over vertical effective stress at rest; None: of elastic ground
+
+    @property
+    def horizontal_share(self) -> float:
+        """Horizontal over vertical effective stress of level ground at rest, ``nu / (1 - nu)`` if elastic."""
+        return self.poisson_ratio / (1.0 - self.poisson_ratio) if self.k0 is None else self.k0
 
     @property
     def unit_weight(self) -> float:

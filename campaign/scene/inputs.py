@@ -70,6 +70,7 @@ INPUTS = (
     *(Input(row.gradient_key, f"growth of the {row.long_name} with depth") for row in PROPERTIES),
     Input("soil.unit_weight", "unit weight"),
     Input("soil.saturated_unit_weight", "saturated unit weight"),
+    Input("soil.k0", "K0"),
     Input("soil.tension_cutoff", "cut-off of tension"),
     Input("water.r_u", "pore pressure ratio r_u"),
     Input("soil.young_modulus", "Young's modulus"),

@@ -112,7 +112,7 @@ class Soil(Section):
     """Constitutive law, unit weight in N/m3, Young's modulus in Pa, dilation angle in rad, and strength.
 
     `saturated_unit_weight` is that below the water table; `tension_cutoff` is what the law "mohr-coulomb" bears in
-    tension at most, in Pa, where the cohesion has its peak.
+    tension at most, in Pa, where the cohesion has its peak. `k0` is horizontal over vertical effective stress at rest.
     """
 
     law: Literal["mohr-coulomb", "drucker-prager", "tresca"] = "mohr-coulomb"
@@ -120,6 +120,7 @@ class Soil(Section):
     saturated_unit_weight: Annotated[UnitWeight, POSITIVE] | None = None
     young_modulus: PositivePressure
     poisson_ratio: Annotated[float, must("be at least 0 and below 0.5", lambda ratio: 0.0 <= ratio < 0.5)]
+    k0: Annotated[float, must("be above 0 and at most 3", lambda ratio: 0.0 < ratio <= 3.0)] | None = None
     dilation_angle: Annotated[Angle, NOT_NEGATIVE] = 0.0
     tension_cutoff: Annotated[Pressure, NOT_NEGATIVE] | None = None
     cohesion: Cohesion

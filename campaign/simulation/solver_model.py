@@ -53,7 +53,7 @@ def material_of(scene: Scene) -> Material:
     constants = Constants(soil.young_modulus, soil.poisson_ratio, soil.dilation_angle, softening, cutoff)
     saturated = None if soil.saturated_unit_weight is None else soil.saturated_unit_weight / STANDARD_GRAVITY
     law = make_law(soil.law if soil.tension_cutoff is None else CUT_OFF, constants)
-    return Material(soil.unit_weight / STANDARD_GRAVITY, soil.poisson_ratio, law, saturated)
+    return Material(soil.unit_weight / STANDARD_GRAVITY, soil.poisson_ratio, law, saturated, soil.k0)
 
 
 def output_times(end_time: float, interval: float) -> Array:

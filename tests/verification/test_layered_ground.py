@@ -21,20 +21,28 @@ from solver.surface import Surface
 SHORT = ("numerics.end_time=3 s", "numerics.output_interval=0.5 s", "field.resolution=1 m")
 
 
-def test_level_ground_of_two_layers_rests_under_its_overburden():
-    """``s_yy = -sum gamma_k thickness_k`` and ``s_xx = nu_k / (1 - nu_k) s_yy``, of the layer a particle lies in."""
-    heavy = 'layer=[{name="heavy", top="2 m", unit_weight="25 kN/m^3", poisson_ratio=0.2, young_modulus="300 MPa"}]'
-    model = model_of(small_scene(heavy, "numerics.cell=1 m"))
+@pytest.mark.parametrize(
+    ("more", "own", "k0"),
+    [
+        ((), "", (0.35 / 0.65, 0.2 / 0.8)),
+        (("soil.k0=0.8",), ", k0=1.3", (0.8, 1.3)),
+        (("soil.k0=0.4",), "", (0.4, 0.4)),
+    ],
+)
+def test_level_ground_of_two_layers_rests_under_its_overburden(more, own, k0):
+    """``s_yy = -sum gamma_k thickness_k`` and ``s_xx = s_zz = K_0 s_yy``, ``nu / (1 - nu)``, of a particle's layer."""
+    soil = 'unit_weight="25 kN/m^3", poisson_ratio=0.2, young_modulus="300 MPa"'
+    model = model_of(small_scene(f'layer=[{{name="heavy", top="2 m", {soil}{own}}}]', "numerics.cell=1 m", *more))
     level = Surface(np.array([0.0, 6.0]), np.array([4.0, 4.0]))
     interface = Surface(np.array([0.0, 6.0]), np.array([2.0, 2.0]))
     ground = in_situ_state(model._replace(surface=level, interfaces=(interface,)))
     is_heavy = ground.y < 2.0
     np.testing.assert_array_equal(ground.material, is_heavy)
     weight = np.where(is_heavy, 2.0 * 20e3 + 25e3 * (2.0 - ground.y), 20e3 * (4.0 - ground.y))
-    poisson_ratio = np.where(is_heavy, 0.2, 0.35)
     np.testing.assert_allclose(ground.stress_yy, -weight, atol=1e-3 * weight.max())
-    expected = -poisson_ratio / (1.0 - poisson_ratio) * weight
+    expected = -np.where(is_heavy, k0[1], k0[0]) * weight
     np.testing.assert_allclose(ground.stress_xx, expected, atol=1e-3 * weight.max())
+    np.testing.assert_allclose(ground.stress_zz, expected, atol=1e-3 * weight.max())
     assert np.sum(ground.mass) == pytest.approx(6.0 * (2.0 * 20e3 + 2.0 * 25e3) / STANDARD_GRAVITY)
 
 

@@ -70,6 +70,16 @@ def _some_undrained_strength(cohesion: float, law: str, gradient: float | None) 
     return NO_STRENGTH if law == FRICTIONLESS and not cohesion and not gradient else None
 
 
+@RULES.on("soil.k0", "numerics.gravity")
+def _stress_at_rest(k0: float | None, gravity: str) -> str | None:
+    if k0 is None or gravity == "release":
+        return None
+    return (
+        "a ramp of gravity builds up the stress of the ground, nu / (1 - nu) where it stays elastic; leave it out, or "
+        'use gravity = "release"'
+    )
+
+
 @RULES.on("soil.tension_cutoff", "soil.law")
 def _tension_cutoff(cutoff: float | None, law: str) -> str | None:
     if cutoff is None or law == WITH_CUTOFF:

@@ -51,6 +51,7 @@ OF_A_SITE: list[tuple[Any, ...]] = [
     *(("soil", "cohesion", name) for name in ("gradient", "residual_gradient", "residual_share")),
     ("soil", "friction_angle", "gradient"),
     ("soil", "tension_cutoff"),
+    ("soil", "k0"),
     *(("boring", 0, name) for name in ("name", "x", "by", "noise", "cohesion", "friction_angle")),
     ("boring",),
 ]

@@ -72,7 +72,12 @@ def test_built_in_scenes_write_out_every_key_and_a_source_for_each(name: str) ->
     scene = load_scene(name)
     given_keys = flatten(tomllib.loads(scene.text)).keys()
     own_or_none_in_the_paper = ("name", "text", "overrides", "geometry", "field.pairs", "layer", "water", "boring")
-    only_elsewhere = {"soil.saturated_unit_weight", "soil.tension_cutoff", *(row.gradient_key for row in PROPERTIES)}
+    only_elsewhere = {
+        "soil.saturated_unit_weight",
+        "soil.tension_cutoff",
+        "soil.k0",
+        *(row.gradient_key for row in PROPERTIES),
+    }
     residual_or_share = {key for row in RESIDUALS for key in (row.mean_key, row.cov_key, row.share_key)}
     known = {key for key in flatten(scene.model_dump()) if not key.startswith(own_or_none_in_the_paper)}
     undrained = scene.soil.friction_angle is None

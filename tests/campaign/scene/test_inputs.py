@@ -20,7 +20,7 @@ def keys(scene):
 def test_a_scene_has_the_inputs_that_count_in_it():
     others = ["soil.softening.slip_to_residual", "soil.softening.reference_cell"]
     of_other_ground = [row.share_key for row in RESIDUALS] + [row.gradient_key for row in PROPERTIES]
-    of_other_ground += ["soil.saturated_unit_weight", "soil.tension_cutoff", "water.r_u"]
+    of_other_ground += ["soil.saturated_unit_weight", "soil.k0", "soil.tension_cutoff", "water.r_u"]
     assert [row.key for row in INPUTS if row.key not in keys(MA2023)] == [*others, *of_other_ground]
     assert "water.r_u" in keys(load_scene("ma2023", ["water.r_u=0.2"]))
     by_slip = keys(load_scene("ma2023", ["soil.softening.slip_to_residual=2 m"]))

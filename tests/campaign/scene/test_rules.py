@@ -47,6 +47,11 @@ def test_the_time_step_suits_basis_and_stress_update() -> None:
     assert "unstable at every" in complaint("numerics.basis=linear", "numerics.stress_update=usl")
 
 
+def test_stress_at_rest_is_given_or_built_up() -> None:
+    assert "a ramp of gravity builds up the stress" in complaint("soil.k0=0.6", "numerics.gravity=ramp")
+    assert "it must be above 0 and at most 3" in complaint("soil.k0=0")
+
+
 def test_a_single_particle_in_a_cell_never_rests() -> None:
     one = "numerics.particles_per_cell=1"
     load_scene("ma2023", [one, "numerics.gravity=ramp"])
