@@ -219,6 +219,12 @@ def rows():
             bool(found.min() > 100),
         ),
         Row("Tension cut-off, largest f", "1e-12 of the trial stress", "", f"{excess:.0e}", excess <= 1e-12),
-        Row("Tension cut-off, against Koiter's conditions", "1e-09 of the trial", "", f"{koiter:.0e}", koiter < 1e-9),
-        Row("Tension cut-off, nearest point", "1e-08 of the trial", "", f"{projection:.0e}", projection < 1e-8),
+        Row(
+            "Tension cut-off, against Koiter's conditions",
+            "1e-09 of the trial stress",
+            "",
+            f"{koiter:.0e}",
+            koiter < 1e-9,
+        ),
+        Row("Tension cut-off, nearest point", "1e-08 of the trial stress", "", f"{projection:.0e}", projection < 1e-8),
     ]

@@ -77,12 +77,20 @@ def test_the_built_in_scenes_are_sound(source):
          'in 1.4 % of the ground the peak cohesion that is drawn is below it and is raised to it, which makes the '
          'ground stronger and less variable than it is written; give residual_share = 0.8 in its place, a share of the '
          'peak at each place, or at most "15 kPa".'),
+        (["soil.tension_cutoff=0 kPa"], "gaps that open stay open when the ground is compressed again"),
         (["soil.softening.rate=1e14"], "but soils have about 0.1 to 10"),
     ],
 )  # fmt: skip
 def test_what_can_hardly_be_meant_is_said_with_its_remedy(overrides, sentence):
     found = warned(*overrides)
     assert any(sentence in text for text in found), found
+
+
+def test_a_cutoff_beyond_the_apex_opens_nothing():
+    """c cot(phi) is 113 kPa; a layer that takes it over is not told again."""
+    layer = 'layer=[{name="clay", top="3 m", cohesion={mean="30 kPa"}}]'
+    assert not [text for text in warned("soil.tension_cutoff=114 kPa") if "gaps" in text]
+    assert len([text for text in warned("soil.tension_cutoff=112 kPa", layer) if "gaps" in text]) == 1
 
 
 def test_steep_faces_benches_and_ditches_of_a_cell_are_seen():
