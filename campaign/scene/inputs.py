@@ -35,12 +35,15 @@ class Input(NamedTuple):
     layer : int
         Number of the layer whose own it is, 0 for [soil] and for what all have in common. Keys count layers as `--set`
         does: "layer.1" is the first below [soil].
+    follower : str
+        Name of a key beside it that is raised alike where there is one.
     """
 
     key: str
     name: str
     cov_key: str = ""
     layer: int = 0
+    follower: str = ""
 
     @property
     def soil_key(self) -> str:
@@ -68,8 +71,7 @@ INPUTS = (
     *(Input(row.mean_key, f"mean {row.long_name}", row.cov_key) for row in PROPERTIES),
     *(Input(row.share_key, f"{row.long_name} over the peak") for row in RESIDUALS),
     *(Input(row.gradient_key, f"growth of the {row.long_name} with depth") for row in PROPERTIES),
-    Input("soil.unit_weight", "unit weight"),
-    Input("soil.saturated_unit_weight", "saturated unit weight"),
+    Input("soil.unit_weight", "unit weight", follower="saturated_unit_weight"),
     Input("soil.k0", "K0"),
     Input("soil.tension_cutoff", "cut-off of tension"),
     Input("water.r_u", "pore pressure ratio r_u"),
@@ -127,10 +129,15 @@ def with_more(scene: Scene, changed: Input) -> Scene:
     RefusalError
         If that is no valid scene, for instance with a residual strength above the peak.
     """
-    kind, value = kind_of(changed.soil_key), raised(scene, changed)
-    text = repr(value) if kind is None else f"{value!r} {kind.si_unit}"
-    other = kept_scene(scene.text, [*scene.overrides, f"{changed.key}={text}"])
+    beside = changed._replace(key=f"{changed.key.rpartition('.')[0]}.{changed.follower}")
+    rows = [changed, beside] if changed.follower and beside.value(scene) else [changed]
+    other = kept_scene(scene.text, [*scene.overrides, *(f"{row.key}={_raised_text(scene, row)}" for row in rows)])
     return other.model_copy(update={"campaign": scene.campaign, "name": scene.name})
+
+
+def _raised_text(scene: Scene, row: Input) -> str:
+    kind, value = kind_of(row.soil_key), raised(scene, row)
+    return repr(value) if kind is None else f"{value!r} {kind.si_unit}"
 
 
 def raised(scene: Scene, changed: Input) -> float:

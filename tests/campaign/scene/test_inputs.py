@@ -20,7 +20,7 @@ def keys(scene):
 def test_a_scene_has_the_inputs_that_count_in_it():
     others = ["soil.softening.slip_to_residual", "soil.softening.reference_cell"]
     of_other_ground = [row.share_key for row in RESIDUALS] + [row.gradient_key for row in PROPERTIES]
-    of_other_ground += ["soil.saturated_unit_weight", "soil.k0", "soil.tension_cutoff", "water.r_u"]
+    of_other_ground += ["soil.k0", "soil.tension_cutoff", "water.r_u"]
     assert [row.key for row in INPUTS if row.key not in keys(MA2023)] == [*others, *of_other_ground]
     assert "water.r_u" in keys(load_scene("ma2023", ["water.r_u=0.2"]))
     by_slip = keys(load_scene("ma2023", ["soil.softening.slip_to_residual=2 m"]))
@@ -64,3 +64,11 @@ def test_repeated_slides_cost_what_they_are():
     assert (with_more_of_an_input(MA2023), with_more_of_an_input(none)) == (4 * 8, 0)
     assert core_seconds(MA2023) / core_seconds(none) == pytest.approx((1000 + 64 + 32) / (1000 + 64))
     assert raised(MA2023, BY_KEY["soil.unit_weight"]) == pytest.approx(22e3)
+
+
+def test_wet_ground_is_heavier_when_moist_ground_is():
+    """Alone, 10 % more of the moist unit weight would exceed the saturated one."""
+    scene = load_scene("drawdown")
+    heavier = with_more(scene, BY_KEY["soil.unit_weight"]).soil
+    assert heavier.unit_weight == pytest.approx(1.1 * scene.soil.unit_weight)
+    assert heavier.saturated_unit_weight == pytest.approx(1.1 * scene.soil.saturated_unit_weight)
