@@ -86,7 +86,11 @@ class SoilProperty(NamedTuple):
         """Return which share of the local peak it is, 1 where nothing softens; None if it has values of its own."""
         if not self.peak:
             return None
-        return 1.0 if scene.soil.softening.law == "none" else value_of(scene, self.share_key)
+        return value_of(scene, self.share_key) if self.is_read(scene) else 1.0
+
+    def is_read(self, scene: Any) -> bool:
+        """Whether anything depends on its keys; nothing does on those of a residual where nothing softens."""
+        return not self.peak or scene.soil.softening.law != "none"
 
     def mean(self, scene: Any) -> float:
         """Return its mean in a scene at the top of the soil, in SI; 0 if the scene leaves the property out."""

@@ -45,8 +45,9 @@ class Measured(NamedTuple):
 
 
 def measured_in(scene: Scene) -> list[Measured]:
-    """Return the data of all borings of a scene."""
+    """Return the data of all borings of a scene, without those of residual strength in layers that do not soften."""
     surface, interfaces, found = surface_of(scene.geometry), interfaces_of(scene), []
+    layers = layer_scenes(scene)
     for number, boring in enumerate(scene.boring):
         x = np.array([boring.x])
         top = float(surface.height_at(x)[0])
@@ -54,7 +55,9 @@ def measured_in(scene: Scene) -> list[Measured]:
             for place, value in getattr(boring, name):
                 y = place if boring.by == "elevation" else top - place
                 layer = int(layer_at(interfaces, x, np.array([y]))[0])
-                found.append(Measured(f"boring.{number}.{name}", name, boring.x, y, value, boring.noise or 0.0, layer))
+                if BY_NAME[name].is_read(layers[layer]):
+                    key, noise = f"boring.{number}.{name}", boring.noise or 0.0
+                    found.append(Measured(key, name, boring.x, y, value, noise, layer))
     return found
 
 
@@ -101,7 +104,10 @@ def impossible_data(scene: Scene) -> Iterator[tuple[str, str]]:
             )
         elif distribution_at(scene, datum) is None:
             where = f" in {layer_names(scene)[datum.layer]}" if scene.layer else ""
-            yield datum.key, f"the {row.long_name} is not random{where}; give {row.cov_key}, or leave the data out"
+            is_share = row.share_of_peak(layer_scenes(scene)[datum.layer]) is not None
+            why = "is a share of the peak" if is_share else "is not random"
+            instead = "values of the peak in their place" if is_share else row.cov_key
+            yield datum.key, f"the {row.long_name} {why}{where}; give {instead}, or leave the data out"
         elif trend_at(scene, datum) <= 0.0:
             yield datum.key, f"the mean is 0 at elevation {datum.y:g} m; give a mean above 0, or leave that value out"
         seen.add(place)

@@ -40,6 +40,8 @@ def test_data_are_values_at_places_in_layers():
         ([boring('cohesion=[["18 kPa", "2 m"]]')], "that is a pressure, and a length is needed"),
         ([boring('cohesion="18 kPa"')], "it must be pairs of a depth or an elevation and a value, for instance"),
         ([boring('cohesion_residual=[["2 m", "9 kPa"]]')], "the residual cohesion is not random; give soil.cohesion"),
+        ([boring('cohesion_residual=[["2 m", "9 kPa"]]'), "soil.cohesion.residual_share=0.5"],
+         "the residual cohesion is a share of the peak; give values of the peak in their place, or leave the data out"),
         ([LAYER, boring('cohesion=[["13 m", "9 kPa"]]')], "the peak cohesion is not random in clay; give"),
         ([boring('cohesion=[["0 m", "9 kPa"]]'), "soil.cohesion.gradient=2 kPa/m", "soil.cohesion.mean=0 kPa",
           "soil.cohesion.residual=0 kPa"], "the mean is 0 at elevation 19 m"),
@@ -52,6 +54,17 @@ def test_data_that_cannot_be_are_refused(overrides, expected):
     message = complaint(*overrides)
     assert expected in message
     assert message.startswith("--set boring")
+
+
+def test_residuals_are_not_read_where_nothing_softens():
+    """With a correlation of a residual, too, that is random by its keys."""
+    random = ["soil.cohesion.residual_cov=0.2", "field.pairs.cohesion.cohesion_residual=0.5"]
+    keys = 'cohesion=[["2 m", "18 kPa"]], cohesion_residual=[["2 m", "9 kPa"]]'
+    soft, hard = (
+        load_scene("ma2023", [*random, boring(keys), f"soil.softening.law={law}"]) for law in ("linear", "none")
+    )
+    assert [each.name for each in measured_in(soft)] == ["cohesion", "cohesion_residual"]
+    assert [each.name for each in measured_in(hard)] == ["cohesion"]
 
 
 def test_two_borings_have_two_names():
