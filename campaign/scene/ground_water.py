@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from campaign.scene.ground_surface import surface_of
-from campaign.scene.layers import interfaces_of, thickness_above
+from campaign.scene.layers import interfaces_of, weight_above
 from campaign.scene.polylines import across, lower_of, upper_of
 from campaign.scene.scene import Scene
 from campaign.scene.sections import Soil
@@ -72,12 +72,10 @@ def carried_share(scene: Scene, x: Array, y: Array) -> Array:
     ground, table = surface_of(scene.geometry), table_of(scene)
     if table is None:
         return np.full_like(x, scene.water.r_u or 0.0)
-    interfaces, below = interfaces_of(scene), np.clip(table.height_at(x), y, ground.height_at(x))
-    whole, moist = (thickness_above(ground, interfaces, x, bottom) for bottom in (y, below))
-    weight = np.zeros_like(x)
-    for soil, thickness, above in zip(scene.soils, whole, moist, strict=True):
-        weight += soil.unit_weight * above + saturated_unit_weight(soil) * (thickness - above)
-    share: Array = scene.water.unit_weight * (below - y) / weight
+    unit_weights = [soil.unit_weight for soil in scene.soils], [saturated_unit_weight(soil) for soil in scene.soils]
+    elevation = table.height_at(x)
+    weight = weight_above(ground, interfaces_of(scene), unit_weights, elevation, x, y)
+    share: Array = scene.water.unit_weight * (np.clip(elevation, y, ground.height_at(x)) - y) / weight
     return share
 
 

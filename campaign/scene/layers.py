@@ -75,3 +75,31 @@ def thickness_above(surface: Surface, interfaces: Sequence[Surface], x: Array, y
     tops = [surface.height_at(x), *(top.height_at(x) for top in interfaces)]
     bottoms = [*(np.maximum(top, y) for top in tops[1:]), y]
     return [np.maximum(top - bottom, 0.0) for top, bottom in zip(tops, bottoms, strict=True)]
+
+
+def weight_above(
+    surface: Surface,
+    interfaces: Sequence[Surface],
+    unit_weights: tuple[Sequence[float], Sequence[float]],
+    table: Array,
+    x: Array,
+    y: Array,
+) -> Array:
+    """Return the weight in Pa of the ground above places.
+
+    Parameters
+    ----------
+    surface, interfaces
+        Of the ground, and the tops of its layers below the first.
+    unit_weights
+        Of each layer in N/m3, moist above the water table and saturated below it.
+    table
+        Elevation in m of the water table above each place.
+    x, y
+        Of the places in m.
+    """
+    whole, moist = (thickness_above(surface, interfaces, x, bottom) for bottom in (y, np.maximum(table, y)))
+    weight = np.zeros(np.broadcast(x, y).shape)
+    for gamma, gamma_wet, thickness, above in zip(*unit_weights, whole, moist, strict=True):
+        weight += gamma * above + gamma_wet * (thickness - above)
+    return weight

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from campaign.scene.layers import layer_at, thickness_above
+from campaign.scene.layers import layer_at, weight_above
 from solver.surface import Surface
 from solver.water import NO_WATER, Water
 
@@ -185,7 +185,8 @@ class _Slices(NamedTuple):
 def _slices(surface: Surface, strata: Strata, x: Array, base: Array, width: Array, sine: Array) -> _Slices:
     """Return slices of a `width` in m around `x`, whose bases have their middle at the elevation `base` in m."""
     cosine = np.sqrt(1.0 - sine**2)
-    weight = _weight_above(surface, strata, x, base)
+    unit_weights = strata.unit_weight, strata.saturated_unit_weight or strata.unit_weight
+    weight = weight_above(surface, strata.interfaces, unit_weights, strata.water.height_at(x), x, base)
     pore_pressure = strata.water.pore_pressure(x, base, weight) - strata.water.standing_pressure(base)
     weight = weight - strata.water.uplift(surface.height_at(x), base)
     count = BASE_PLACES if strata.interfaces else 1
@@ -193,17 +194,6 @@ def _slices(surface: Surface, strata: Strata, x: Array, base: Array, width: Arra
     places = x[..., None] + aside, base[..., None] - (sine / cosine)[..., None] * aside
     cohesion, tangent = (each.mean(axis=-1) for each in strata.strength_at(*places))
     return _Slices(weight * width, pore_pressure * width, cohesion * width, tangent, sine, cosine)
-
-
-def _weight_above(surface: Surface, strata: Strata, x: Array, y: Array) -> Array:
-    """Return the weight of the ground above places, moist above the water table and saturated below it, in Pa."""
-    table = np.clip(strata.water.height_at(x), y, None)
-    whole, moist = (thickness_above(surface, strata.interfaces, x, bottom) for bottom in (y, table))
-    saturated = strata.saturated_unit_weight or strata.unit_weight
-    weight = np.zeros_like(x)
-    for gamma, gamma_wet, thickness, above in zip(strata.unit_weight, saturated, whole, moist, strict=True):
-        weight += gamma * above + gamma_wet * (thickness - above)
-    return weight
 
 
 def _circles(surface: Surface, entry: Array, exit_: Array, sagitta: Array) -> tuple[Array, Array, Array]:
