@@ -50,6 +50,15 @@ def test_what_never_came_so_far_is_no_more_certain_than_of_so_many_plain_runs():
     assert found.total.upper >= found.sampling.upper
 
 
+def test_a_quantile_that_so_many_plain_runs_do_not_bound_is_not_bounded():
+    """A 95 % quantile needs 72 slides."""
+    few = np.random.default_rng(5).normal(10.0, 1.0, 60)
+    found = foretold([plain(few[:20]), plain(few)], 0.95, 0).quantile(0.95)
+    assert np.isnan(found.sampling.upper)
+    assert np.isnan(found.total.upper)
+    assert np.isfinite(found.sampling.lower)
+
+
 def test_the_total_interval_holds_both_limits():
     """A halving that takes 1 m off each run-out: the median may be 1 m lower or higher."""
     coarse = np.random.default_rng(4).normal(10.0, 1.0, 300)
