@@ -16,6 +16,9 @@ Array = NDArray[np.float64]
 PLACES = 401
 """Across the section, at which water is measured."""
 
+ROUNDING = 1e-6
+"""Height in m above the ground within which a table that is cut there lies in it."""
+
 AFTERWARDS = "In a slide each part of the ground keeps its share: it does not drain."
 
 
@@ -47,10 +50,11 @@ def water_words(scene: Scene) -> str | None:
         ratio = f"Pore pressure is r_u = {water.r_u} of the weight above, everywhere."
         return f"{ratio} {AFTERWARDS}" if water.r_u else None
     x = _places(ground)
-    in_ground = np.minimum(table.height_at(x), ground.height_at(x))
+    heights, top = table.height_at(x), ground.height_at(x)
+    in_ground = heights[heights <= top + ROUNDING] if np.any(heights <= top + ROUNDING) else top
     sentences = [
         f"The table is at elevations from {in_ground.min():.4g} m to {in_ground.max():.4g} m; its pore pressure "
-        f"carries at most {most_carried(scene):.0%} of the weight above."
+        f"carries at most {100 * most_carried(scene):.0f} % of the weight above."
     ]
     if water.level is not None:
         depth = water.level - float(ground.y.min())

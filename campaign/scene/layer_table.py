@@ -8,8 +8,10 @@ from numpy.typing import NDArray
 
 from campaign.fields.properties import BY_NAME, PROPERTIES, RESIDUALS, SoilProperty, value_of
 from campaign.scene.ground_surface import surface_of
+from campaign.scene.ground_water import saturated_unit_weight
 from campaign.scene.layers import interfaces_of, layer_names, layer_scenes, thickness_above
 from campaign.scene.scene import Scene
+from campaign.scene.sections import Soil
 from campaign.scene.units import UNIT_WEIGHT, shown_in_unit
 from campaign.terminal import as_sentence, listing
 
@@ -43,7 +45,7 @@ def layer_rows(scene: Scene) -> list[LayerRow]:
         LayerRow(
             name,
             _range(thickness),
-            shown_in_unit(layer.soil.unit_weight, UNIT_WEIGHT),
+            _unit_weight(layer.soil),
             _value(layer, "cohesion"),
             _value(layer, "friction_angle"),
             _residual(layer),
@@ -76,7 +78,7 @@ def _trends(scene: Scene) -> str:
         for row in PROPERTIES
         if row.gradient(scene) and row.share_of_peak(scene) is None
     ]
-    return listing(told) if told else "does not grow with depth"
+    return listing(told) if told else "no growth with depth"
 
 
 def thicknesses(scene: Scene) -> list[NDArray[np.float64]]:
@@ -89,6 +91,12 @@ def thicknesses(scene: Scene) -> list[NDArray[np.float64]]:
 def _range(thickness: NDArray[np.float64]) -> str:
     least, most = float(thickness.min()), float(thickness.max())
     return f"{most:.2g} m" if most - least < 0.05 * most else f"{least:.2g} to {most:.2g} m"
+
+
+def _unit_weight(soil: Soil) -> str:
+    """Return the moist unit weight, and the saturated one where it is another."""
+    moist, saturated = (shown_in_unit(each, UNIT_WEIGHT) for each in (soil.unit_weight, saturated_unit_weight(soil)))
+    return moist if moist == saturated else f"{moist.partition(' ')[0]}, wet {saturated}"
 
 
 def _residual(scene: Scene) -> str:

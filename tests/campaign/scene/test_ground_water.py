@@ -81,6 +81,8 @@ def test_what_is_told_of_the_water():
     assert "r_u = 0.25" in water_words(load_scene("ma2023", ["water.r_u=0.25"]))
     lake = water_words(load_scene("ma2023", ["water.level=7 m"]))
     assert "stands at 7 m, at most 3 m deep" in lake
+    assert "table is at elevations from 7 m to 7 m; its pore pressure carries at most 49 % of" in lake
+    assert "from 4 m to 19 m" in water_words(load_scene("ma2023", ["water.level=20 m"]))
 
 
 def test_surfaces_that_end_in_a_face_keep_it():

@@ -10,6 +10,7 @@ from campaign.scene.cost import time_step
 from campaign.scene.first_look import look_at
 from campaign.scene.foresight import warnings
 from campaign.scene.inputs import inputs_of, raised, with_more
+from campaign.scene.layer_table import layer_rows
 from campaign.scene.layers import interfaces_of, layer_at, lower_of
 from campaign.scene.variant import with_stiffness
 from campaign.scene.writing import toml_of
@@ -212,3 +213,10 @@ def test_correlations_are_of_the_layers_that_have_both_properties():
     )
     assert message.startswith("--set field.cross_correlation is -0.95, but lognormal fields with these coefficients")
     assert message.endswith("(in layer 2).")
+
+
+def test_the_table_of_layers_tells_both_unit_weights():
+    water = ["soil.unit_weight=18.5 kN/m^3", "soil.saturated_unit_weight=20 kN/m^3"]
+    clay = 'layer=[{name="clay", top="4 m", unit_weight="17 kN/m^3", saturated_unit_weight="17 kN/m^3"}]'
+    weights = [row.unit_weight for row in layer_rows(load_scene("ma2023", [*water, clay]))]
+    assert weights == ["18.5, wet 20 kN/m^3", "17 kN/m^3"]
