@@ -2,11 +2,12 @@
 
 from typing import NamedTuple
 
+from campaign.errors import RefusalError, SceneError
 from campaign.fields.properties import PROPERTIES, RESIDUALS, value_of
 from campaign.scene.comparison import kind_of
 from campaign.scene.layer_soil import gives
 from campaign.scene.layers import layer_names, layer_scenes
-from campaign.scene.loading import kept_scene
+from campaign.scene.loading import load_scene
 from campaign.scene.scene import Scene
 from campaign.scene.units import shown_in_unit
 
@@ -131,8 +132,11 @@ def with_more(scene: Scene, changed: Input) -> Scene:
     """
     beside = changed._replace(key=f"{changed.key.rpartition('.')[0]}.{changed.follower}")
     rows = [changed, beside] if changed.follower and beside.value(scene) else [changed]
-    other = kept_scene(scene.text, [*scene.overrides, *(f"{row.key}={_raised_text(scene, row)}" for row in rows)])
-    return other.model_copy(update={"campaign": scene.campaign, "name": scene.name})
+    try:
+        other = load_scene(scene, [f"{row.key}={_raised_text(scene, row)}" for row in rows])
+    except SceneError as error:
+        raise RefusalError(str(error)) from error
+    return other.model_copy(update={"campaign": scene.campaign})
 
 
 def _raised_text(scene: Scene, row: Input) -> str:
