@@ -13,7 +13,7 @@ from campaign.scene.layer_soil import gives
 from campaign.scene.layers import random_properties
 from campaign.scene.limit_equilibrium import SlipCircle
 from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
-from campaign.scene.more_ground import behind_crest, key_of
+from campaign.scene.more_ground import behind_crest, key_of, lines_with_it, raised_with_it
 from campaign.scene.odd_layers import odd_layers
 from campaign.scene.odd_sections import odd_sections
 from campaign.scene.open_cracks import open_cracks
@@ -142,10 +142,11 @@ def short_ground(scene: Scene, look: FirstLook) -> Complaint | None:
 
 def longer_plain(scene: Scene, surface: Surface, needed: float, text: str) -> Complaint:
     """Complain, for the reason in `text`, that the ground does not go on for `needed` m beyond the toe."""
+    with_it = lines_with_it(scene)
     if scene.geometry.slope is not None:
-        return Complaint("geometry.slope.plain", f'{text}; use at least "{rounded_up(needed)} m"')
+        return Complaint("geometry.slope.plain", f'{text}; use at least "{rounded_up(needed)} m"{with_it}')
     end = surface.toe_x + needed
-    return Complaint("geometry.surface", f"{text}; continue the ground to x = {rounded_up(end)} m or farther")
+    return Complaint("geometry.surface", f"{text}; continue the ground to x = {rounded_up(end)} m or farther{with_it}")
 
 
 def short_crest(scene: Scene, look: FirstLook) -> Complaint | None:
@@ -161,7 +162,8 @@ def short_crest(scene: Scene, look: FirstLook) -> Complaint | None:
 def thin_foundation(scene: Scene, look: FirstLook) -> Complaint | None:
     """Warn of a slip surface that goes down to the fixed base, or would if there was ground, and of one along it."""
     toe_y, key = look.surface.toe[1], key_of(scene, "foundation")
-    remedy = "if there is no rock, deepen the foundation until the factor of safety no longer falls"
+    with_it = raised_with_it(scene)
+    remedy = f"if there is no rock, deepen the foundation until the factor of safety no longer falls{with_it}"
     band = max(scene.numerics.cell, scene.soil.softening.internal_length or 0.0)
     if not (driven := _driven(look)) or toe_y < scene.numerics.cell:  # else it is a heap on a floor
         return None
@@ -176,7 +178,8 @@ def thin_foundation(scene: Scene, look: FirstLook) -> Complaint | None:
         return Complaint(
             key,
             f"the critical slip circle comes out at the toe, {toe_y:.2g} m above the fixed base, and a band of "
-            f"{band:g} m may run along that; if there is no rock, deepen the foundation to {rounded_up(2.0 * band)} m",
+            f"{band:g} m may run along that; if there is no rock, deepen the foundation to {rounded_up(2.0 * band)} m"
+            f"{with_it}",
         )
     return None
 

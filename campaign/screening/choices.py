@@ -17,10 +17,12 @@ from campaign.scene.boring_data import measured_in
 from campaign.scene.ground_surface import surface_of
 from campaign.scene.ground_water import water_of
 from campaign.scene.layers import layer_scenes
+from campaign.scene.more_ground import elevations, lines_across
 from campaign.scene.units import PRESSURE, shown_in_unit
 from campaign.scene.variant import in_all_layers, with_cell, with_stiffness
 from campaign.simulation.scene_sampler import CELLS_PER_DISTANCE, correlation_of
 from campaign.statistics.release import OTHER
+from campaign.terminal import listing
 from solver.water import NO_WATER
 
 SOFTER = 4.0
@@ -144,10 +146,11 @@ def _ground(scene: Scene) -> Iterator[Choice]:
     if slope is None:
         yield from _profile(scene)
         return
-    # Receptors are given by their x, which a shorter crest would move with the toe.
-    why_not = "left out: it would move the receptors" if scene.receptor else ""
+    # Receptors and lines are given by their x, which a shorter crest would move with the toe.
+    why_not = "left out: it would move the receptors" if scene.receptor else _why_kept(lines_across(scene))
     bored = "left out: borings may lie in it" if scene.boring else ""
-    for part, reason in (("foundation", bored), ("crest", why_not or bored), ("plain", bored)):
+    lowered = bored or _why_kept(elevations(scene))
+    for part, reason in (("foundation", lowered), ("crest", why_not or bored), ("plain", bored)):
         length = getattr(slope, part)
         half = _metres(length / 2)
         changes = (f"geometry.slope.{part}={half}",)
@@ -159,14 +162,20 @@ def _profile(scene: Scene) -> Iterator[Choice]:
     surface, bored = surface_of(scene.geometry), "left out: borings may lie in it" if scene.boring else ""
     toe_x, depth = surface.toe_x, float(surface.y.min())
     if depth:
+        why_not = bored or _why_kept(elevations(scene))
         lower = (_points(surface.x, surface.y - depth / 2),)
-        yield Choice(f"foundation of {_metres(depth)}", _metres(depth / 2), lower, redraws=True, why_not=bored)
+        yield Choice(f"foundation of {_metres(depth)}", _metres(depth / 2), lower, redraws=True, why_not=why_not)
     half = (surface.width - toe_x) / 2
     inside = surface.x < toe_x + half
     x = np.append(surface.x[inside], toe_x + half)
     y = np.append(surface.y[inside], surface.height_at(x[-1:]))
     shorter = (_points(x, y), f"geometry.toe={_metres(toe_x)}")
     yield Choice(f"plain of {_metres(2 * half)}", _metres(half), shorter, redraws=True, why_not=bored)
+
+
+def _why_kept(drawn: list[str]) -> str:
+    """Say why ground is left as it is, from whose base or left wall other things are measured; "" without any."""
+    return f"left out: it would move the ground past {listing(drawn)}" if drawn else ""
 
 
 def _points(x: Iterable[float], y: Iterable[float]) -> str:

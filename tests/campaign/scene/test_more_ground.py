@@ -41,6 +41,25 @@ def test_ground_behind_the_crest_moves_every_x(overrides, longer):
     assert behind_crest(load_scene("ma2023", overrides)) == longer
 
 
+def test_layers_and_water_move_with_the_ground():
+    """Tops and tables from wall to wall have their ends and their x, and all elevations count from the base."""
+    layers = 'layer=[{name="clay", top=[["0 m","9 m"],["35 m","6 m"],["75 m","6 m"]]}, {name="till", top="2 m"}]'
+    water = 'water={table=[["0 m","13 m"],["35 m","4 m"],["75 m","4 m"]], level="5 m"}'
+    boring = 'boring=[{name="B1", x="10 m", by="elevation", cohesion=[["12 m", "20 kPa"]]}]'
+    scene = load_scene("ma2023", [layers, water, boring])
+    assert behind_crest(scene).endswith(
+        "; add 15 m to the x of each boring; add 15 m to the x of each point of layer.1.top; add 15 m to the x of each "
+        "point of water.table"
+    )
+    assert ahead(scene) == "lengthen geometry.slope.plain, and layer.1.top and water.table with it"
+    assert below(scene).endswith(
+        "foundation, with as much added to the elevation of each layer's top, water.table, water.level and the data of "
+        "each boring"
+    )
+    by_depth = load_scene("ma2023", ['layer=[{name="clay", depth="3 m"}]', "water.r_u=0.3"])
+    assert below(by_depth) == "deepen geometry.slope.foundation"
+
+
 def test_a_scene_is_told_its_own_keys_alone():
     slope, profile = load_scene("ma2023"), load_scene("ma2023", [f"geometry={{{SURFACE}}}"])
     assert ahead(slope) == "lengthen geometry.slope.plain"

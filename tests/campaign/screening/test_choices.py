@@ -83,6 +83,17 @@ def test_the_crest_stays_where_receptors_are_measured_from_it():
         assert surface_of(changed(scene, name).geometry).toe_x == surface_of(scene.geometry).toe_x
 
 
+def test_ground_is_not_moved_past_its_layers_and_its_water():
+    """Their elevations count from the base, and the x of lines from the wall behind the crest."""
+    slope, profile = by_name(load_scene("layered", ["receptor=[]"])), by_name(load_scene("drawdown"))
+    assert slope["foundation of 6 m"].why_not == "left out: it would move the ground past each layer's top"
+    assert slope["crest of 25 m"].why_not == "left out: it would move the ground past layer.1.top"
+    assert not slope["plain of 40 m"].why_not
+    assert "water.table and water.level" in profile["foundation of 5 m"].why_not
+    by_depth = load_scene("ma2023", ['layer=[{name="clay", depth="3 m"}]'])
+    assert not any(choice.why_not for choice in choices_of(by_depth))
+
+
 def test_a_profile_loses_half_its_foundation_and_half_its_plain():
     scene = load_scene("ma2023", PROFILE)
     own = surface_of(scene.geometry)
