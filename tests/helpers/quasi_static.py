@@ -28,6 +28,7 @@ from solver.sorting import fill_tiles, read_tiles, sort_if_due
 from solver.spread import spread_all
 from solver.step import accelerate, advance, allocate_workspace
 from solver.surface import Surface
+from solver.tiles import SORTS, after_sorts
 from solver.timestep import stable_step
 
 PRANDTL = 2.0 + math.pi  # exact limit of a strip load over the cohesion, on Tresca ground
@@ -71,11 +72,18 @@ def prescribe(grid, footing, velocity, dt):
     return force
 
 
-@kernel
 def push(particles, grid, work, laws, scheme, footing, velocity, dt, steps):
     """Push a rough rigid footing into weightless ground; return the mean force in N/m."""
-    force = 0.0
     tiles = fill_tiles(particles, grid, work.tiles)
+    force = _push(tiles, grid, work, laws, scheme, footing, velocity, dt, steps)
+    read_tiles(after_sorts(tiles), particles)
+    return force / steps
+
+
+@kernel
+def _push(tiles, grid, work, laws, scheme, footing, velocity, dt, steps):
+    force = 0.0
+    tiles.counts[SORTS] = 0
     spread_all(tiles, grid, scheme)
     for _ in range(steps):
         tiles = sort_if_due(tiles, grid)
@@ -86,8 +94,7 @@ def push(particles, grid, work, laws, scheme, footing, velocity, dt, steps):
             for axis in range(2):  # no slices, whose assignment Numba compiles for seconds
                 grid.remapped[row, axis, i] = grid.velocity[row, axis, i]
         deform(tiles, grid, work.ledger, laws, scheme, 0.0, dt)
-    read_tiles(tiles, particles)
-    return force / steps
+    return force
 
 
 def bearing_pressure(cells, locking, settlement=0.003, samples=40, steps=500, law="mohr-coulomb"):

@@ -30,6 +30,7 @@ from solver.particles import allocate_particles
 from solver.sorting import fill_tiles, read_tiles, sort_if_due
 from solver.spread import spread_all
 from solver.step import accelerate, allocate_workspace
+from solver.tiles import SORTS, after_sorts
 
 RADIUS, HELD, DRIVEN, RIM, SIZE = 6.0, 4.0, 8.0, 2.0, 22.0  # m: of the band, the rigid parts, the rims, the grid
 SLIP, SAMPLES = 0.8, 40  # m at RADIUS, where the drive is DRIVE, looks on the way
@@ -45,12 +46,19 @@ def prescribe(vectors, is_prescribed, values):
                 vectors[j, 1, i] = values[j, 1, i]
 
 
-@kernel
 def turn(particles, grid, work, laws, scheme, is_prescribed, velocity, dt, steps):
     """Move some nodes at ``velocity`` (rows, 2, columns), in m/s; return the work of the stresses in J/m."""
-    at_rest = np.zeros_like(velocity)
     work.ledger[INTERNAL_WORK] = 0.0
     tiles = fill_tiles(particles, grid, work.tiles)
+    _turn(tiles, grid, work, laws, scheme, is_prescribed, velocity, dt, steps)
+    read_tiles(after_sorts(tiles), particles)
+    return work.ledger[INTERNAL_WORK]
+
+
+@kernel
+def _turn(tiles, grid, work, laws, scheme, is_prescribed, velocity, dt, steps):
+    at_rest = np.zeros_like(velocity)
+    tiles.counts[SORTS] = 0
     spread_all(tiles, grid, scheme)
     for _ in range(steps):
         tiles = sort_if_due(tiles, grid)
@@ -60,8 +68,6 @@ def turn(particles, grid, work, laws, scheme, is_prescribed, velocity, dt, steps
         accelerate(tiles, grid, work, scheme, 0.0, dt)
         prescribe(grid.remapped, is_prescribed, velocity)
         deform(tiles, grid, work.ledger, laws, scheme, 0.0, dt)
-    read_tiles(tiles, particles)
-    return work.ledger[INTERNAL_WORK]
 
 
 def compliance():

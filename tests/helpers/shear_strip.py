@@ -29,6 +29,7 @@ from solver.particles import allocate_particles
 from solver.sorting import fill_tiles, read_tiles, sort_if_due
 from solver.spread import spread_all
 from solver.step import accelerate, allocate_workspace
+from solver.tiles import SORTS, after_sorts
 
 HEIGHT, RIM, COARSE_CELL, WIDTH_IN_CELLS = 10.0, 1.0, 0.5, 2  # m, m, m: rigid blocks at both ends are the walls
 RESIDUAL = 10e3  # Pa
@@ -74,12 +75,19 @@ def hold(vectors, base, top, value):
                 vectors[j, 1, i] = 0.0
 
 
-@kernel
 def shear(particles, grid, work, laws, scheme, base, top, drive, dt, steps):
     """Drive the nodes from row ``top`` up at ``drive`` m/s, hold those up to row ``base``; return the work in J/m."""
     work.ledger[INTERNAL_WORK] = 0.0
-    width = grid.width
     tiles = fill_tiles(particles, grid, work.tiles)
+    _shear(tiles, grid, work, laws, scheme, base, top, drive, dt, steps)
+    read_tiles(after_sorts(tiles), particles)
+    return work.ledger[INTERNAL_WORK]
+
+
+@kernel
+def _shear(tiles, grid, work, laws, scheme, base, top, drive, dt, steps):
+    width = grid.width
+    tiles.counts[SORTS] = 0
     spread_all(tiles, grid, scheme)
     for _ in range(steps):
         tiles = sort_if_due(tiles, grid)
@@ -93,8 +101,6 @@ def shear(particles, grid, work, laws, scheme, base, top, drive, dt, steps):
         hold(grid.remapped, base, top, drive)
         wrap_around(tiles, width)
         deform(tiles, grid, work.ledger, laws, scheme, 0.0, dt)
-    read_tiles(tiles, particles)
-    return work.ledger[INTERNAL_WORK]
 
 
 def compliance():

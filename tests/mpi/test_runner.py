@@ -288,7 +288,7 @@ def test_an_end_among_the_changed_inputs_leaves_no_trace(with_more, tmp_path, nu
 
 
 def test_inputs_that_cannot_be_more_are_left_out(tmp_path):
-    code, output = campaign(tmp_path / "out", 20, 1, [MORE, "soil.cohesion.residual=19 kPa"])
+    code, output = campaign(tmp_path / "out", 20, 1, [MORE, "soil.cohesion.cov=0.02", "soil.cohesion.residual=19 kPa"])
     assert code == 0, output
     assert "What more mean residual cohesion changes cannot be estimated." in output
     assert "soil.cohesion.residual" not in dataset(tmp_path / "out").input

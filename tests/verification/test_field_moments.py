@@ -11,7 +11,7 @@ import pytest
 from driver import Row
 
 from campaign.scene.scene import Scene
-from campaign.scene.sections import Cohesion, FrictionAngle, Geometry, RandomField, Soil
+from campaign.scene.sections import Cohesion, FrictionAngle, Geometry, RandomField, Softening, Soil
 from campaign.simulation.scene_sampler import strength_sampler
 
 COHESION = Cohesion.model_construct(mean=20e3, cov=0.1)
@@ -36,7 +36,8 @@ def draw_all(kernel):
         cross_correlation=CROSS_CORRELATION,
         resolution=RESOLUTION,
     )
-    soil = Soil.model_construct(cohesion=COHESION, friction_angle=FRICTION)
+    softening = Softening.model_construct(law="none")
+    soil = Soil.model_construct(cohesion=COHESION, friction_angle=FRICTION, softening=softening)
     ground = Geometry.model_construct(surface=((0.0, 15.0), (59.0, 15.0), (60.0, 14.0)))
     sampler = strength_sampler(Scene.model_construct(soil=soil, field=field, geometry=ground), 60.0, 15.0)
     drawn = [sampler.draw(11, k) for k in range(REALIZATIONS)]
