@@ -6,8 +6,8 @@ from campaign.scene.scene import Scene
 
 MUCH_CARRIED = 0.55
 """Share of the weight above that pores carry, beyond which slides drive themselves apart. Of 3 realizations of
-two slopes each none failed with r_u = 0.4, 2 of 6 with 0.5, all with 0.6; with a table at the surface none at 0.55, 1 of
-3 at 0.59, all at 0.65."""
+two slopes each none failed with r_u = 0.4, 2 of 6 with 0.5, all with 0.6; with a table at the surface none at 0.55, 1
+of 3 at 0.59, all at 0.65."""
 
 
 def afloat(scene: Scene) -> Complaint | None:
