@@ -20,7 +20,7 @@ from solver.laws.registry import unyielding
 from solver.method import Method
 from solver.model import Model
 from solver.overburden import overburden
-from solver.particles import Particles
+from solver.particles import Particles, copy_particles
 from solver.pore_pressure import wet_ground_of
 from solver.scheme import scheme_of
 from solver.slide import PAPER
@@ -98,7 +98,8 @@ def in_situ_state(model: Model, from_nothing: bool = False) -> Particles:
         If neither the unbalanced force of the nodes nor that which particles feel falls below 1e-4 of the weight.
     """
     model = loading_model(model)
-    particles = wet_ground_of(model)
+    drawn = wet_ground_of(model)
+    particles = copy_particles(drawn)
     if not from_nothing:
         lay_geostatic_stress(particles, model)
     grid = model.allocate_grid()
@@ -128,6 +129,9 @@ def in_situ_state(model: Model, from_nothing: bool = False) -> Particles:
         if unbalanced < UNBALANCED:
             particles.velocity_x[:] = 0.0
             particles.velocity_y[:] = 0.0
+            # The water is that which is drawn, however much the ground is compressed.
+            particles.pore_area[:] *= particles.volume / drawn.volume
+            particles.pore_pressure[:] = drawn.pore_pressure
             return particles
     fastest = np.argmax(np.hypot(particles.velocity_x, particles.velocity_y))
     x, y = particles.x[fastest], particles.y[fastest]

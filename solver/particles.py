@@ -23,7 +23,7 @@ class Particles(NamedTuple):
     friction_angle: np.ndarray  # (n,) rad, peak
     cohesion_residual: np.ndarray  # (n,) Pa
     friction_angle_residual: np.ndarray  # (n,) rad
-    pore_pressure_ratio: np.ndarray  # (n,) pore pressure over the weight of the ground above, see ``pore_pressure``
+    pore_area: np.ndarray  # (n,) m2, the part of the area on which pore water carries the weight above; it stays
     pore_pressure: np.ndarray  # (n,) Pa, compression positive, beyond that of standing water; stresses are effective
     material: np.ndarray  # (n,) number of the particle's material, from 0
 

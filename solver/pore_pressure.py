@@ -8,9 +8,11 @@ over the width ``h`` of a cell (half of it at a wall, and all of its own at the 
 
     W_i = g / h (m_i / 2 + sum_k>i m_k)
 
-which under level ground is ``gamma d`` from a cell below the surface on. Pore pressures depend on places and not on
-strains, so they neither stiffen the ground nor shorten its steps. ``r`` is that of the drawn water before the slide, by
-the same sum, so that the pore pressure is the drawn one there.
+which under level ground is ``gamma d`` from a cell below the surface on. ``r`` is that of the drawn water before the
+slide, by the same sum, so that the pore pressure is the drawn one there. Pore pressures depend on places and volumes
+and not on stresses, so they neither stiffen the ground nor shorten its steps. Ground that comes apart takes in air:
+pore water carries the same area of a particle however large it becomes, ``r_p V_p`` stays, or its pressure would drive
+on what it has driven apart.
 
 Where water stands over the ground, it loads the pore water in full: the pressure is ``r_p W_p`` and that of the
 standing water on the surface. In excess of the standing water at the place itself (``standing_water``), which is larger
@@ -24,6 +26,7 @@ from solver.constants import LANE_COUNT, STANDARD_GRAVITY
 from solver.filling import ground_of
 from solver.grid import PADDING
 from solver.lanes import lane_numbers, load, splat, store, where
+from solver.mean_dilation import NO_VOLUME
 from solver.model import Model
 from solver.overburden import overburden
 from solver.particles import Particles, copy_particles
@@ -56,7 +59,7 @@ def pore_pressure_of(p, row, column, w, grid):
     """Return the pore pressure in Pa of a block of particles under the ground above the nodes."""
     start = row * grid.columns + column
     overburden = nine(grid.overburden, start, grid.columns, w.sx, w.sy)
-    return p.pore_pressure_ratio * overburden - uplift_of(p.y, overburden, grid)
+    return p.pore_area / max(p.volume, NO_VOLUME) * overburden - uplift_of(p.y, overburden, grid)
 
 
 @kernel
@@ -89,7 +92,7 @@ def wet_ground_of(model: Model) -> Particles:
     of_nodes = _pore_pressures(ground, 1.0, model)
     uplift = -_pore_pressures(ground, 0.0, model)
     ratio = np.minimum((excess + uplift) / (of_nodes + uplift), (drawn - on_surface) / weight)
-    ground.pore_pressure_ratio[:] = ratio
+    ground.pore_area[:] = ratio * ground.volume
     ground.pore_pressure[:] = _pore_pressures(ground, ratio, model)
     return ground
 
@@ -97,7 +100,7 @@ def wet_ground_of(model: Model) -> Particles:
 def _pore_pressures(ground: Particles, ratio: np.ndarray | float, model: Model) -> np.ndarray:
     """Return the pore pressures (n,) in Pa that the particles would have with a ``ratio``."""
     grid, found = model.allocate_grid(), copy_particles(ground)
-    found.pore_pressure_ratio[:] = ratio
+    found.pore_area[:] = ratio * found.volume
     tiles = fill_tiles(found, grid, allocate_tiles(ground.x.size))
     find_pore_pressures(tiles, grid, STANDARD_GRAVITY)
     read_tiles(tiles, found)

@@ -20,8 +20,8 @@ from solver.tiles import (
     MATERIAL,
     NUMBER,
     PLASTIC_STRAIN,
+    PORE_AREA,
     PORE_PRESSURE,
-    PORE_PRESSURE_RATIO,
     SORTS,
     STEPS,
     STRESS_XX,
@@ -75,7 +75,7 @@ def _fill_tiles(particles, grid, tiles):
         fields[COHESION], fields[COHESION_RESIDUAL] = particles.cohesion[p], particles.cohesion_residual[p]
         fields[FRICTION_ANGLE] = particles.friction_angle[p]
         fields[FRICTION_ANGLE_RESIDUAL] = particles.friction_angle_residual[p]
-        fields[PORE_PRESSURE_RATIO] = particles.pore_pressure_ratio[p]
+        fields[PORE_AREA] = particles.pore_area[p]
         fields[PORE_PRESSURE] = particles.pore_pressure[p]
         fields[NUMBER] = p
         tiles.counts[LEAVERS] += 1

@@ -46,7 +46,7 @@ def least_friction(particles: Particles, surface: Surface) -> float:
     """
     unit_weight = STANDARD_GRAVITY * particles.mass.sum() / particles.volume.sum()
     cohesion, angle = particles.cohesion_residual.mean(), particles.friction_angle_residual.mean()
-    effective = 1.0 - particles.pore_pressure_ratio.mean()
+    effective = 1.0 - np.mean(particles.pore_area / particles.volume)
     return float(max(effective * np.tan(angle), cohesion / (unit_weight * surface.relief)))
 
 

@@ -24,7 +24,7 @@ from solver.particles import UNYIELDING, Particles
 # Fields of a block: those of the particles in their order, then what a step keeps until it ends.
 X, Y, VELOCITY_X, VELOCITY_Y, MASS, VOLUME, STRESS_XX, STRESS_YY, STRESS_ZZ, STRESS_XY, PLASTIC_STRAIN = range(11)
 COHESION, FRICTION_ANGLE, COHESION_RESIDUAL, FRICTION_ANGLE_RESIDUAL = range(11, 15)
-PORE_PRESSURE_RATIO, PORE_PRESSURE, MATERIAL = range(15, 18)
+PORE_AREA, PORE_PRESSURE, MATERIAL = range(15, 18)
 NUMBER = 18  # of the particle
 MOVED_X, MOVED_Y = 19, 20  # m, places at the end of the step
 INCREMENT_XX, INCREMENT_XY, INCREMENT_YX, INCREMENT_YY = 21, 22, 23, 24  # displacement gradient of the step
@@ -118,7 +118,7 @@ def take(tiles, block):
         load(blocks, k + FRICTION_ANGLE * LANE_COUNT),
         load(blocks, k + COHESION_RESIDUAL * LANE_COUNT),
         load(blocks, k + FRICTION_ANGLE_RESIDUAL * LANE_COUNT),
-        load(blocks, k + PORE_PRESSURE_RATIO * LANE_COUNT),
+        load(blocks, k + PORE_AREA * LANE_COUNT),
         load(blocks, k + PORE_PRESSURE * LANE_COUNT),
         load(blocks, k + MATERIAL * LANE_COUNT),
     )

@@ -194,7 +194,7 @@ def feel_overburden(particles, s, mass, grid, gravity):
     overburden = s.T @ (np.cumsum(weight[::-1], axis=0)[::-1] - below * weight).ravel()
     lake = gravity * grid.lake[DENSITY] * np.maximum(grid.lake[LEVEL] - particles.y, 0.0)
     uplift = np.minimum(grid.lake[LIGHTENING] * overburden, lake)
-    particles.pore_pressure[:] = particles.pore_pressure_ratio * overburden - uplift
+    particles.pore_pressure[:] = particles.pore_area / particles.volume * overburden - uplift
 
 
 def move(particles, displacement):

@@ -43,7 +43,7 @@ def update(particles, increment, laws, dt):
             particles.x[p], particles.y[p], particles.velocity_x[p], particles.velocity_y[p], particles.mass[p],
             particles.volume[p], particles.stress_xx[p], particles.stress_yy[p], particles.stress_zz[p],
             particles.stress_xy[p], particles.plastic_strain[p], particles.cohesion[p], particles.friction_angle[p],
-            particles.cohesion_residual[p], particles.friction_angle_residual[p], particles.pore_pressure_ratio[p],
+            particles.cohesion_residual[p], particles.friction_angle_residual[p], particles.pore_area[p],
             particles.pore_pressure[p], float(particles.material[p]),
         )  # fmt: skip
         l_p = increment[0, p], increment[1, p], increment[2, p], increment[3, p]

@@ -115,7 +115,7 @@ def test_a_step_is_that_of_the_box(mid_slide, basis, method):
 def test_a_step_of_wet_ground_is_that_of_the_box(mid_slide, method):
     rng = np.random.default_rng(12)
     ratio, pressure = rng.uniform(0.0, 0.5, mid_slide.x.size), rng.uniform(0.0, 2e4, mid_slide.x.size)
-    wet = mid_slide._replace(pore_pressure_ratio=ratio, pore_pressure=pressure)
+    wet = mid_slide._replace(pore_area=ratio * mid_slide.volume, pore_pressure=pressure)
     assert largest_deviation(wet, "gimp", method) < TOLERANCE
 
 

@@ -48,7 +48,7 @@ def test_residual_strength_resists_by_its_friction_or_its_cohesion(start, angle,
     soil = start._replace(
         cohesion_residual=np.full(start.x.size, cohesion),
         friction_angle_residual=np.full(start.x.size, np.radians(angle)),
-        pore_pressure_ratio=np.full(start.x.size, ratio),
+        pore_area=ratio * start.volume,
     )
     assert least_friction(soil, MODEL.surface) == pytest.approx(0.0875 if angle else 0.102, rel=2e-3)
 
