@@ -16,7 +16,6 @@ from campaign.scene.limits import ALLOWED_LOSS, damping, pic_loss
 from campaign.scene.more_ground import behind_crest, key_of, lines_with_it, raised_with_it
 from campaign.scene.odd_layers import odd_layers
 from campaign.scene.odd_sections import odd_sections
-from campaign.scene.odd_water import afloat
 from campaign.scene.open_cracks import open_cracks
 from campaign.scene.outlook import may_slide
 from campaign.scene.raised_peaks import raised_peaks
@@ -70,7 +69,6 @@ def warnings(scene: Scene, look: FirstLook) -> list[Complaint]:
             far_from_failure(look),
             *odd_sections(scene, look.surface),
             *odd_layers(scene, look),
-            afloat(scene),
             *raised_peaks(scene),
             *open_cracks(scene),
             coarse_cells(scene, look),

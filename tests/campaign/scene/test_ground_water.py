@@ -7,7 +7,6 @@ from scene_complaints import complaint, found_in
 from campaign.scene import load_scene
 from campaign.scene.document import read_document
 from campaign.scene.ground_water import most_carried, water_of, water_words
-from campaign.scene.odd_water import afloat
 from campaign.scene.polylines import across, lower_of, upper_of
 from solver.surface import Surface
 from solver.water import NO_WATER
@@ -91,19 +90,3 @@ def test_surfaces_that_end_in_a_face_keep_it():
     level = across([[0.0, 3.0]], 4.0)
     lower = lower_of(cliff, level)
     np.testing.assert_allclose(lower.height_at(np.array([1.0, 1.999999, 2.0, 3.0])), [3.0, 3.0, 1.0, 1.0])
-
-
-@pytest.mark.parametrize(
-    ("overrides", "key"),
-    [
-        (["water.r_u=0.6"], "water.r_u"),
-        (["water.r_u=0.55"], None),
-        ([TABLE, "soil.unit_weight=16 kN/m^3"], "water.table"),
-        ([TABLE], None),
-        ([], None),
-    ],
-)
-def test_ground_that_nearly_floats_is_warned_of(overrides, key):
-    """9.81 over 16 kN/m3 is 61 % of the weight, over 20 kN/m3 it is 49 %."""
-    complaint = afloat(load_scene("ma2023", overrides))
-    assert (complaint and complaint.key) == key
