@@ -84,7 +84,8 @@ def _pieces(surface: Surface, side: float, columns: int) -> _Pieces:
 def _counted(counts: np.ndarray) -> np.ndarray:
     """Return 0, 1, ... for each count, one after the other."""
     ends = np.cumsum(counts)
-    return np.arange(counts.sum()) - np.repeat(ends - counts, counts)
+    counted: np.ndarray = np.arange(counts.sum()) - np.repeat(ends - counts, counts)
+    return counted
 
 
 def _areas(pieces: _Pieces, bottom: np.ndarray, side: float) -> np.ndarray:
@@ -97,7 +98,7 @@ def _areas(pieces: _Pieces, bottom: np.ndarray, side: float) -> np.ndarray:
     safe = np.where(rise == 0.0, 1.0, rise)
     crossings = [np.where(rise == 0.0, 0.0, (level - pieces.left_y) / safe) for level in (bottom, bottom + side)]
     ends = np.sort(np.clip([np.zeros_like(width), *crossings, np.ones_like(width)], 0.0, 1.0), axis=0)
-    area = np.zeros_like(width)
+    area: np.ndarray = np.zeros_like(width)
     for a, b in pairwise(ends):
         thickness = (np.clip(pieces.left_y + share * rise - bottom, 0.0, side) for share in (a, b))
         area += 0.5 * (b - a) * width * sum(thickness)

@@ -66,8 +66,10 @@ def constitutive_law(name: str, parameters: type, make: Callable[[Constants], An
 
 def unyielding(law: Law) -> Law:
     """Return the law of ground whose particles have more strength than they need: it neither softens nor cracks."""
-    kept = law._replace(softening=NO_SOFTENING)
-    return kept._replace(tension_cutoff=NO_CUTOFF) if hasattr(kept, "tension_cutoff") else kept
+    kept: Law = law._replace(softening=NO_SOFTENING)
+    if hasattr(kept, "tension_cutoff"):
+        kept = kept._replace(tension_cutoff=NO_CUTOFF)
+    return kept
 
 
 def law_names() -> list[str]:
