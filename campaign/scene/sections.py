@@ -41,6 +41,7 @@ from campaign.scene.constraints import (
 )
 from campaign.scene.units import Angle, Length, Pressure, UnitWeight
 from solver.method import Basis, Filling, Locking, StressUpdate
+from solver.water import UNIT_WEIGHT
 
 
 class Section(BaseModel):
@@ -170,7 +171,7 @@ class GroundWater(Section):
     table: Top | None = None
     level: PositiveLength | None = None
     r_u: Annotated[float, must("be at least 0 and at most 0.9", lambda ratio: 0.0 <= ratio <= 0.9)] | None = None
-    unit_weight: Annotated[UnitWeight, POSITIVE] = 9810.0
+    unit_weight: Annotated[UnitWeight, POSITIVE] = UNIT_WEIGHT
 
 
 CrossCorrelation = Annotated[float, must("lie between -1 and 1, both excluded", lambda rho: -1.0 < rho < 1.0)]
